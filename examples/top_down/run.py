@@ -1,9 +1,9 @@
 """Where does a crack start, by which mechanism, and when is it how deep: a motorway, an exit curve, a bus stop.
 
 Each place is a design case, a TOML file beside this one, with its traffic, its climate and its criteria; each is
-solved under the tire as a half-space of rubber and as a tread on an inflated belt. The crack that the surface
-criterion starts grows down through the wearing course; years come with what 5 and 95 % of such roads see. Traffic and
-temperatures are assumed.
+solved under the tire as a half-space of rubber, as a tread without grooves on an inflated belt, and as ribs with free
+sides on that belt. The crack that the surface criterion starts grows down through the wearing course; years come with
+what 5 and 95 % of such roads see. Traffic and temperatures are assumed.
 
     python examples/top_down/run.py [folder]
 
@@ -23,7 +23,11 @@ from treadload.plots.kit.style import CASES, MUTED, open_axes, styled
 
 HERE = Path(__file__).parent
 PLACES = {"motorway": "Motorway", "exit_curve": "Exit curve", "bus_stop": "Bus stop"}
-TIRES = {"half-space": {}, "belt": {"belt": "315/80R22.5"}}
+TIRES = {
+    "half-space": {},
+    "belt": {"belt": "315/80R22.5"},
+    "ribs": {"belt": "315/80R22.5", "tread": "ribs"},
+}
 DEEP = 0.04
 
 
@@ -98,7 +102,7 @@ def depths(results: dict[tuple[str, str], tl.steps.Result]) -> Figure:
             depth, low, half, high = 1e3 * growth.depths, *growth.dataset["risk_years"].to_numpy()
             axis.fill_betweenx(depth, low, np.minimum(high, 1e6), color=colour, alpha=0.2, linewidth=0)
             axis.plot(half, depth, color=colour, label=tire)
-        years = results[place, "belt"].life.traffic.years
+        years = results[place, "ribs"].life.traffic.years
         axis.axvline(years, color=MUTED, linewidth=0.8, linestyle=":")
         axis.set_xscale("log")
         axis.set_xlim(5, 1000)

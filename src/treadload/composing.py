@@ -82,17 +82,34 @@ class Holds:
     reads: Callable[[xr.Dataset, Mapping[str, Any]], object] | None = None
 
 
+@dataclass(frozen=True)
+class Columns:
+    """How a report compares results of a class: in tables with a column for each case.
+
+    rows: heading of the table of their numbers; empty where the report has tables for the class alone. stats: heading
+    of the table of the solver's statistics; empty for none.
+    """
+
+    rows: str = ""
+    stats: str = ""
+
+
 class BaseResult(Described):
     """Base of all results: one question, one dataset, its numbers row by row.
 
     title: of the class, what it is in words. subject: of a page about results of the class alone. group: of the
-    class, its name in a tree of results; `group_name` may tell results of one class apart.
+    class, its name in a tree of results; `group_name` may tell results of one class apart. sections: names that it
+    may give to parts of such a result, whose numbers are those of the whole. also: further names of it in files.
+    columns: how a report compares results of several cases; None shows each by itself.
     holds: what a dataset from a file must have before it becomes an object of the class.
     """
 
     group: ClassVar[str]
     subject: ClassVar[str] = ""
     holds: ClassVar[Holds] = Holds()
+    sections: ClassVar[tuple[str, ...]] = ()
+    also: ClassVar[tuple[str, ...]] = ()
+    columns: ClassVar[Columns | None] = None
 
     if TYPE_CHECKING:
 
@@ -102,7 +119,7 @@ class BaseResult(Described):
             """Fields by name, with units and long names."""
 
         @property
-        def stats(self) -> Mapping[str, Any]:
+        def stats(self) -> Mapping[str, object]:
             """How it was solved: iterations, residuals, seconds."""
             return MappingProxyType({})
     else:
@@ -158,6 +175,12 @@ def small_picture(result: BaseResult) -> bytes | None:
     except Exception:
         return None
     return image
+
+
+def class_of_group(group: str) -> str:
+    """Name of the class, the first defined, whose results take this group; empty where none does."""
+    names = {name: (kind.group, *kind.sections, *kind.also) for name, kind in result_classes().items()}
+    return next((name for name, groups in names.items() if group in groups), "")
 
 
 def result_class(name: str) -> type[BaseResult] | None:

@@ -192,7 +192,7 @@ def _image(kind: str, picture: bytes | None) -> str:
     return f'<img class="tl-picture" alt="{html.escape(kind)} in a figure" src="data:image/png;base64,{data}">'
 
 
-def _is_default(field: dataclasses.Field[Any], value: object) -> bool:
+def _is_default(field: dataclasses.Field[object], value: object) -> bool:
     if field.default is dataclasses.MISSING:
         return False
     # An array would compare by element.

@@ -106,7 +106,7 @@ def text_of(path: str | os.PathLike[str], wanted: str) -> str:
         ) from error
 
 
-def parse_toml(text: str, name: str) -> dict[str, Any]:
+def parse_toml(text: str, name: str) -> dict[str, object]:
     """The tables of a TOML text. name: of the file, for the error. Raises InputError."""
     try:
         table = tomllib.loads(text)
@@ -179,7 +179,7 @@ def _replace_texts(node: xr.DataTree) -> None:
         holder.attrs = {_valid(str(name)): _valid(value) for name, value in holder.attrs.items()}
 
 
-def _valid(value: object) -> Any:
+def _valid(value: object) -> object:
     """A text without what stands for bytes that are not UTF-8, which no file takes; anything else as it is."""
     return value.encode("utf-8", "replace").decode("utf-8") if isinstance(value, str) else value
 

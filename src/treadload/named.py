@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 from importlib import metadata
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
 from treadload.errors import InputError, meant
 
@@ -157,7 +157,7 @@ class Catalogue(Mapping[str, Item]):
         return items
 
 
-def read_tables(path: Path) -> dict[str, Any]:
+def read_tables(path: Path) -> dict[str, object]:
     """Tables of a TOML file. Raises InputError."""
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))

@@ -31,7 +31,7 @@ _TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u
 PSI = 6894.757293168361
 """A pound-force per square inch, Pa: of laws that are published in it."""
 # Years and load repetitions beyond which no road is known and no number of a law is meant; files keep the number.
-LASTS, COUNTLESS = 1000.0, 1e10
+LASTS, COUNTLESS = 100.0, 1e10
 
 _EXAMPLES = {
     "m": '"3 mm"',
@@ -193,7 +193,7 @@ def _units(written: str) -> Any:
     return _registry().parse_units(text)
 
 
-def _roots(units: object) -> dict[str, Any]:
+def _roots(units: object) -> dict[str, object]:
     """Base units and their powers, angles among them."""
     return dict(_registry().get_root_units(units)[1]._units)
 
@@ -236,7 +236,7 @@ class Unit:
 
         return core_schema.no_info_before_validator_function(lambda value: quantity(value, self.si), handler(source))
 
-    def __get_pydantic_json_schema__(self, schema: object, handler: object) -> dict[str, Any]:
+    def __get_pydantic_json_schema__(self, schema: object, handler: object) -> dict[str, object]:
         """A number in SI units, or text with its unit."""
         bare = "°C" if self.si == "degC" else self.si
         words = f"A number in {bare}, or text such as {self.example}." if bare else f"A number, {self.example}."

@@ -285,6 +285,13 @@ _EQUIVALENTS = {
     "years_at_equivalent": ("1", "years at the equivalent temperature of the governing criterion"),
 }
 
+_REMEDIES = {
+    "remedy_years": ("1", "years that a criterion lasts with a remedy"),
+    "road_years": ("1", "years until the first criterion fails with a remedy"),
+    "years_won": ("1", "years that the road lasts longer with a remedy"),
+    "solved_anew": ("1", "1 where contacts or responses were solved for the remedy, 0 where only the sum is new"),
+}
+
 _DESIGN = {
     "exact_thickness": ("m", "thickness of the layer for which the road lasts exactly"),
     "design_thickness": ("m", "thickness of the layer, rounded up"),
@@ -542,6 +549,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_DESIGN,
     **_GROWTH,
     **_EQUIVALENTS,
+    **_REMEDIES,
     **_INTERFACES,
     **_PASSES,
     **_UNIFORM,
@@ -609,6 +617,7 @@ _DISPLAYS_LIFE = {
     "design_utilisation": Display("utilisation", "", ".2g"),
     "design_damage": Display("damage", "", ".2g"),
     "damage_by": Display("most damage by"),
+    "law_conditions": Display("law calibrated"),
     "first_crack": Display("first crack"),
     "end_of_life": Display("damage 1 means"),
     "quantity": Display("evaluated"),
@@ -639,6 +648,11 @@ _DISPLAYS_LIFE = {
     "trial_thickness": Display("thickness", "mm", ".0f"),
     "trial_years": Display("service life at it", "", years_in_words),
     "asked_years": Display("design life", "", years_in_words),
+    "road_years": Display("road lasts", "", years_in_words),
+    "years_won": Display("years won", "", "+z.3g"),
+    "remedy_years": Display("years by", "", years_in_words),
+    "best_remedy": Display("helps"),
+    "not_applicable": Display("not applicable"),
 }
 
 _DISPLAYS_STUDIES = {
@@ -880,9 +894,9 @@ SAMPLE: Mapping[str, Display] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "trial", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading", "unknown",
-    "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure", "mode",
-    "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
+    "trial", "remedy", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading",
+    "unknown", "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
+    "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
     "interface", "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x",
     "road_x", "component", "orientation",
 )  # fmt: skip

@@ -227,6 +227,37 @@ def test_the_slice_is_dragged(visit):
     assert page.evaluate("__drawn") == []
 
 
+def test_the_slice_stays_on_the_map(visit):
+    """Dragged or put beyond the border of the map, the line lies on the border."""
+    page = visit.page
+    visit.done()
+    edges = page.evaluate(
+        "(({x, y}) => [x[0], x.at(-1), y[0], y.at(-1)])(document.querySelector('.maps')._fullData[0])"
+    )
+    for sign, border in ((1, edges[3]), (-1, edges[2])):
+        page.evaluate("treadloadPut({ along: 'x', at: 0 })")
+        drag(page, sign * (abs(border) + 40))
+        page.wait_for_function("(y) => document.querySelector('.maps').layout.shapes[0].y0 === y", arg=border)
+        line = shape(page)
+        assert line["y1"] == border
+        assert edges[0] <= line["x0"] < line["x1"] <= edges[1]
+        assert page.locator("#placed").inner_text() == line_in_words(page)
+        assert all(np.isfinite(curve).all() for curve in drawn(visit, "profile", "y"))
+    page.evaluate("treadloadPut({ along: 'y', at: 1e4 })")
+    line = shape(page)
+    assert (line["x0"], line["x1"]) == (edges[1], edges[1])
+    assert edges[2] <= line["y0"] < line["y1"] <= edges[3]
+    # A line aslant that was moved as a whole comes back as a whole, and one with an end outside is cut there.
+    page.evaluate("treadloadPut({ along: 'x', at: 0 })")
+    within_map = "([line, before]) => treadloadWithin(document.querySelector('.maps'), line, before)"
+    before = {"x0": -20, "y0": -10, "x1": 20, "y1": 10}
+    back = page.evaluate(within_map, [{key: at + 1e3 * key.startswith("y") for key, at in before.items()}, before])
+    assert back == pytest.approx({"x0": -20, "x1": 20, "y0": edges[3] - 20, "y1": edges[3]})
+    back = page.evaluate(within_map, [{**before, "x1": 1e3}, before])
+    assert back == pytest.approx({**before, "x1": edges[1]})
+    assert not visit.errors
+
+
 def drawn(visit, figure, key):
     """What stands in the traces of a figure, None where there is a gap."""
     told = visit.page.evaluate(

@@ -14,7 +14,7 @@ import xarray as xr
 import treadload as tl
 from cases import COARSE_CASE
 from studies import CASE, study_of
-from treadload.app.form_parts import label_of
+from treadload.app.case_schema import label_of
 from treadload.app.result_rows import rows_of
 from treadload.case import Case
 from treadload.composing import BaseResult, dataset_of, result_classes
@@ -184,6 +184,26 @@ def equivalents():
     return tl.life.Equivalents(data)
 
 
+def remedies():
+    data = dataset(
+        {
+            "remedy_years": (("remedy", "criterion"), [[19.0, 60.0], [12.0, math.inf], [9.0, 40.0]]),
+            "road_years": (("remedy",), [19.0, 12.0, 9.0]), "years_won": (("remedy",), [7.0, 0.0, -3.0]),
+            "solved_anew": (("remedy",), [1, 0, 1]), "life_years": (("criterion",), [12.0, 50.0]),
+            "standard_axles": (("criterion", "axle_class"), [[0.1, 0.9], [math.nan, math.nan]]),
+            "mean_standard_axles": (("criterion",), [0.3, math.nan]),
+        },
+        {
+            "remedy": ["2 cm more asphalt", "50 mm more wander", "friction 0.1 lower"], "criterion": ["top", "rut"],
+            "axle_class": ["light", "heavy"],
+        },
+        kinds=json.dumps(["thickness", "wander", "friction"]), governing=json.dumps(["top"] * 3),
+        standard_axle="80 kN",
+    )  # fmt: skip
+    stats = {"contacts": 1, "responses": 4, "seconds": 0.2}
+    return tl.life.Remedies(data, ("turns of 33 % larger radius: no class turns",), stats, ("asphalt: far",))
+
+
 def footprint():
     pressure = np.zeros((4, 5))
     pressure[1:3, 1:4] = 7e5
@@ -301,6 +321,7 @@ MADE = {
     "Sensitivity": sensitivity,
     "Reliability": reliability,
     "Equivalents": equivalents,
+    "Remedies": remedies,
     "ThicknessDesign": thickness_design,
     "Growth": growth,
     "UniformComparison": lambda: tl.damage.compare_uniform(contact(), ROAD, pressure=7e5, depths=[0.02, 0.08]),
@@ -326,6 +347,7 @@ FIGURES = {
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "ThicknessDesign": "lives",
     "Growth": "depth", "Equivalents": "axles", "UniformComparison": "strains", "RollingResistance": "losses",
+    "Remedies": "tornado",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",

@@ -11,11 +11,12 @@ from scipy.interpolate import PchipInterpolator
 import treadload as tl
 from treadload.damage import Criterion, FatigueLine, miner
 from treadload.damage.climate import Climate, Season
+from treadload.damage.cycles import harm_of
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.grid import Grid
 from treadload.life.climate import curves, nodes, over_the_climate, warmth_of
-from treadload.life.groups import _harm, _one_axle, in_words
-from treadload.life.passage import _along, _rows, _stride
+from treadload.life.groups import _one_axle, in_words
+from treadload.life.lines import Plane, along, rows_of, stride_of
 from treadload.life.peaks import Strips, onto_lines, over_strips, peaks_and_valleys
 from treadload.life.sensitivity import _growth, _without_solves
 from treadload.life.variants import most
@@ -99,11 +100,11 @@ def test_an_axle_alone_has_its_own_wheels(wheels):
     [(0.0, 0.004, 0), (0.05, 0.004, 0), (0.06, 0.004, 3), (0.5, 0.004, 5), (0.09, 0.04, 1), (0.06, 0.0025, 4)],
 )
 def test_strides_follow_the_depth(depth, cell, stride):
-    assert _stride(depth, cell) == stride
+    assert stride_of(depth, cell) == stride
 
 
 def test_near_the_surface_a_passage_is_read_on_cells_and_once_between(wheels):
-    x = _along(wheels, 0)
+    x = along(wheels, Plane(0, "above", 0.01))
     assert len(x) == 3 * 7 + 2
     assert all(np.abs(x - centre).min() < 1e-8 for centre in wheels.x.ravel())
     between = [one for one in x if np.abs(wheels.x - one).min() > 2 * DX]
@@ -114,14 +115,14 @@ def test_near_the_surface_a_passage_is_read_on_cells_and_once_between(wheels):
 
 
 def test_deep_down_a_passage_is_read_evenly_and_beyond_its_axles(wheels):
-    x = _along(wheels, 2)
+    x = along(wheels, Plane(2, "above", None))
     np.testing.assert_allclose(np.diff(x), 2 * DX, rtol=1e-9)
     assert wheels.x[0, 0] - 0.3 - 2 * DX <= x[0] <= wheels.x[0, 0] - 0.3 + 1e-9
     assert wheels.x[-1, -1] + 0.3 - 2 * DX <= x[-1] <= wheels.x[-1, -1] + 0.3 + 2 * DX
 
 
 def test_rows_are_every_cell_beside_wheels_and_few_elsewhere(wheels, y):
-    near, deep = y[_rows(wheels, y, 0)], y[_rows(wheels, y, 2)]
+    near, deep = (y[rows_of(wheels, y, Plane(stride, "above", 0.01))] for stride in (0, 2))
     for one in (near, deep):
         assert (one[0], one[-1]) == (y[0], pytest.approx(y[-1], abs=DY))
         # Cells, not the points between them.
@@ -259,10 +260,12 @@ def test_groups_in_words():
 
 
 def test_harm_is_that_of_peaks_less_that_of_valleys():
-    passes = np.array([[10.0, 10.0], [np.inf, 10.0], [20.0, 10.0]])
-    np.testing.assert_allclose(_harm(passes), [0.15, 0.1], rtol=1e-12)
+    law = FatigueLine(100e-6, -0.2)
+    turns = 1e-6 * np.array([[100.0, 80.0], [50.0, 80.0], [90.0, 80.0], [0.0, 0.0]])
+    expected = 1e-6 * np.array([1 - 0.5**5 + 0.9**5, 0.8**5])
+    np.testing.assert_allclose(harm_of(law, turns), expected, rtol=1e-12)
     # More valley than peak is round-off of curves: no road heals.
-    assert _harm(np.array([[20.0], [10.0]])).item() == 0
+    assert harm_of(law, np.array([[10e-6], [20e-6]])).item() == 0
 
 
 def life(growth=0.0, wander=None):

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from rib_press import mean_over, outer_third, pressed, strips
 from treadload.kernels.layers.layered import Stack, transfer
 from treadload.kernels.sections import Section, face_compliance
+from treadload.validation.one_rib import PressedRib, half_rib, outer_pin, outer_third, strips
 
 WIDTH, HEIGHT, POISSON = 0.04856, 0.020, 0.495
 RIB = Section(((0.0, WIDTH),), HEIGHT, (0.005, 0.005), (0.006, 0.006))
@@ -93,7 +93,7 @@ def test_the_table_is_smooth_between_its_waves(table, monkeypatch):
     ("friction", "shear"), [(0.15, 0.139), (0.3, 0.278), (0.5, 0.396), (0.7, 0.408), (0.9, 0.408)]
 )
 def test_one_rib_pressed_shears_outward(friction, shear):
-    assert outer_third(friction=friction) == pytest.approx(shear, rel=0.03)
+    assert outer_third(PressedRib(friction=friction)) == pytest.approx(shear, rel=0.03)
 
 
 @pytest.mark.parametrize(
@@ -107,21 +107,21 @@ def test_one_rib_pressed_shears_outward(friction, shear):
     ],
 )
 def test_worn_narrow_and_wide_ribs(rib, shear):
-    assert outer_third(friction=0.5, **rib) == pytest.approx(shear, rel=0.03)
+    assert outer_third(PressedRib(friction=0.5, **rib)) == pytest.approx(shear, rel=0.03)
 
 
 @pytest.mark.parametrize(("poisson", "shear"), [(0.47, 0.288), (0.49, 0.284), (0.495, 0.283), (0.4995, 0.282)])
 def test_the_sides_and_not_poissons_ratio_make_the_shear(poisson, shear):
-    assert outer_third(width=0.045, poisson=poisson, friction=0.3, edge=1e-6) == pytest.approx(shear, rel=0.03)
+    assert outer_third(PressedRib(width=0.045, poisson=poisson, friction=0.3, edge=1e-6)) == pytest.approx(
+        shear, rel=0.03
+    )
 
 
 def test_cells_of_3_and_of_1_5_mm_agree():
     of_cells = {}
     for cells in (16, 32):
-        places, pressure, shear = pressed(cells=cells)
-        half = WIDTH / 2
-        measures = (mean_over(places, shear, *part) for part in ((0, WIDTH / 3), (0, 0.0097), (0, half)))
-        of_cells[cells] = np.abs(list(measures)) / pressure.mean()
+        rib = PressedRib(cells=cells)
+        of_cells[cells] = [measure(rib) for measure in (outer_third, outer_pin, half_rib)]
     assert of_cells[16] == pytest.approx(of_cells[32], rel=0.03)
 
 

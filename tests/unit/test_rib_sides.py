@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.damage.rib_sides import FEWER, SHALLOW, sides_in_words
+from treadload.damage.rib_sides import EVALUATED, FEWER, SHALLOW, STRAINS, sides_in_words
 from treadload.tire.grooves import Groove, LateralGrooves
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
@@ -51,12 +51,22 @@ def test_a_surface_below_filled_grooves_has_a_caveat_with_a_range(contact):
     assert contact.dataset.attrs["rib_sides"] == "filled"
     (text,) = caveats(assessed(contact).warnings)
     assert f"{FEWER[0]} to {FEWER[1]} times fewer" in text
+    # Of which strain the range is, and that the evaluated one hardly changes.
+    assert "no principal stress is tensile" in text
+    assert f"at most {EVALUATED} microstrain" in text
     assert 'tread = "ribs"' in text
     # Wheels that are placed, mirrored and averaged are of the same tire.
     assert caveats(assessed(tl.response.dual_wheels(contact, 0.34)).warnings) == [text]
     assert caveats(assessed(contact, depths=(0.06, 0.1), depth=0.06).warnings) == []
     assert caveats(assessed(contact, depths=(0.0, 0.1), depth=0.1).warnings) == []
     assert SHALLOW == 0.02
+
+
+def test_the_range_is_that_of_the_strains_in_the_sentence():
+    low, high = ((free / filled) ** 5 for filled, free in STRAINS)
+    # As many digits as cells allow: 12.9 and 660 of rounded strains.
+    assert FEWER[0] == pytest.approx(low, rel=0.3)
+    assert FEWER[1] == pytest.approx(high, rel=0.1)
 
 
 def test_loads_that_are_of_no_tire_have_none(contact):

@@ -43,7 +43,8 @@ def test_strain_scales_with_all_moduli_together(plain):
 def test_the_laws_strain_and_the_passes(plain):
     """Without growth life goes like 1 / passes and like ε₆ to the power -1/b."""
     _, found = plain
-    assert found["strength of base"] == pytest.approx(5, rel=1e-9)
+    # Of single numbers.
+    assert found["strength of base"] == pytest.approx(5, rel=1e-5)
     assert found["passes"] == pytest.approx(-1, rel=1e-9)
     assert "wander" not in found
 

@@ -2,6 +2,7 @@
 
 import json
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -193,6 +194,34 @@ def test_what_has_weather_in_it_is_left_out_with_a_sentence():
     assert "french: daily thermal stress is left out: its law was fitted to roads" in told
     assert "soil: daily thermal stress is left out: its layer is not bituminous" in told
     assert daily_cycles(road(), climate(None), [TOP], TRAFFIC) is None
+
+
+def test_a_mix_of_one_frequency_is_left_out_with_a_warning():
+    """Nothing says how it relaxes: other criteria keep their cycles, and a named relaxation gives it cycles."""
+    mix = mixes["EB-BBSG3"]
+    tenth = mix.frequencies.index(10.0)
+    single = replace(mix, frequencies=(10.0,), moduli=(mix.moduli[tenth],))
+    base = Criterion("base", LINE, 1, "bottom")
+    found = daily_cycles(road(single), climate(Thermal()), [TOP, base], TRAFFIC)
+    assert found.yearly[0] == 0.0
+    assert found.yearly[1] > 0
+    assert any("top: daily thermal stress is left out" in text and "ViscoRoute" in text for text in found.warnings)
+    assert np.isnan(day_tension(road(single), climate(Thermal()))[:, 0]).all()
+    named = daily_cycles(road(single), climate(Thermal(relaxation="ViscoRoute")), [TOP, base], TRAFFIC)
+    assert named.yearly[0] > 0
+    assert not named.warnings
+
+
+def test_a_weather_has_daily_thermal_stress_unless_a_case_says_no():
+    """`thermal` left out counts with its defaults; false is none; a table sets the numbers."""
+    given = next(line for line in CASE.splitlines(keepends=True) if line.startswith("thermal"))
+    built = {}
+    for text in ("", "thermal = true\n", "thermal = {}\n", "thermal = false\n", given):
+        case = tl.Case.from_text(CASE.replace(given, text))
+        built[text] = case.build_climate().thermal
+    assert built[""] == built["thermal = true\n"] == built["thermal = {}\n"] == Thermal()
+    assert built["thermal = false\n"] is None
+    assert built[given] == Thermal(3e-5, relaxation="ViscoRoute")
 
 
 def summed(weather, reading=100e-6, traffic=TRAFFIC):

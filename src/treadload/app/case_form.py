@@ -25,8 +25,8 @@ class CaseForm(Uploads):
     """
 
     def __init__(
-        self, session: Session, room: str, changed: Callable[[Form], Any],
-        files: dict[str, tuple[tuple[str, ...], Callable[[str], Any]]] | None = None,
+        self, session: Session, room: str, changed: Callable[[Form], object],
+        files: dict[str, tuple[tuple[str, ...], Callable[[str], object]]] | None = None,
     ) -> None:  # fmt: skip
         super().__init__(session)
         self._room, self._changed, self._files = room, changed, files or {}
@@ -34,6 +34,7 @@ class CaseForm(Uploads):
         self._checked = Checked(None, {})
         self._open: set[str] = set()
         self._section: TreadSection | None = None
+        self._fields: Any = None
 
     @property
     def form(self) -> Form:
@@ -43,12 +44,18 @@ class CaseForm(Uploads):
     def build(self) -> None:
         """Put the fields on the page."""
         super().build()
+        self._fields = ui.element("div")
         self._all()
 
-    @ui.refreshable_method
     def _all(self) -> None:
+        """Put the fields of the form of now in place of those of before."""
+        self._fields.clear()
         self._shown.clear()
         self._section = None
+        with self._fields:
+            self._whole()
+
+    def _whole(self) -> None:
         whole = self.form.parts(self.session.folder)
         tables = [part for part in whole.parts if isinstance(part, Group | Rows)]
         self._heading("Case", "")
@@ -178,11 +185,11 @@ class CaseForm(Uploads):
         form = self.form.with_added(path, self._folder, shape="" if part.is_key else name)
         if ending and form.check(self._folder).case is None:
             self.show_problem(f"choose the file below: “{FILES[ending][0]}”")
-            self._all.refresh()
+            self._all()
             return
         self.again(form)
 
-    def _takes_file(self, path: str) -> Callable[[str], Any]:
+    def _takes_file(self, path: str) -> Callable[[str], object]:
         return lambda name: self.again(self.form.with_added(path, self._folder, name))
 
     @property
@@ -201,7 +208,7 @@ class CaseForm(Uploads):
     def take(self, form: Form) -> None:
         """Show another form, of a run or a file."""
         self.session.forms[self._room] = form
-        self._all.refresh()
+        self._all()
 
     def check(self) -> None:
         """Check the form, and show at each field whose its value is and what is wrong with it."""

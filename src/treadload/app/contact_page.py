@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 from nicegui import background_tasks, ui
 
 from treadload.app.case_form import CaseForm
+from treadload.app.case_schema import label_of
 from treadload.app.elements import heading, plain, with_attributes
 from treadload.app.figure_place import Place
 from treadload.app.form import Form
-from treadload.app.form_parts import label_of
 from treadload.app.gallery import Gallery
 from treadload.app.page_frame import Page
 from treadload.app.run_cards import RunCards
@@ -90,12 +90,12 @@ class ContactPage(Page):
 
     # The run that is shown.
 
-    def view_options(self) -> dict[str, Any]:
+    def view_options(self) -> dict[str, object]:
         """The maps of a part as soon as it is there."""
         self._pair = None
         return {"view": self._seen()}
 
-    def _seen(self) -> dict[str, Any]:
+    def _seen(self) -> dict[str, object]:
         return {**self._view, "width": self.width, "line": self._slice.line}
 
     def name_of(self, form: Form) -> str:

@@ -34,7 +34,7 @@ def with_attributes(element: Any_Element, **attributes: str) -> Any_Element:
     return element
 
 
-def plain(content: str, do: Callable[..., object], *, main: bool = False, label: str = "") -> Any:
+def plain(content: str, do: Callable[..., object], *, main: bool = False, label: str = "") -> ui.element:
     """A button. label: for who does not see it, where the text alone does not say."""
     button = ui.element("button").classes("plain main" if main else "plain").props('type="button"')
     if label:
@@ -44,7 +44,7 @@ def plain(content: str, do: Callable[..., object], *, main: bool = False, label:
     return button.on("click", lambda: do())
 
 
-def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], object]) -> Any:
+def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], object]) -> ui.select:
     """One of a few."""
     select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
     return select.props("dense outlined options-dense").classes(

@@ -32,7 +32,7 @@ from treadload.case.schema import KINDS
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.errors import InputError, TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree
@@ -174,7 +174,7 @@ class Engine:
             allowed={"rows": allowed_rows(allowed), "notes": list(allowed.without)},
         )
 
-    def _life(self, say: Say, run: str, table: dict[str, Any], theme: str) -> None:
+    def _life(self, say: Say, run: str, table: dict[str, object], theme: str) -> None:
         began, used, last_sent = time.monotonic(), time.process_time(), 0.0
         case = Case.from_dict(table, folder=self._folder, name="case")
         stored = StoredRun(case)
@@ -201,7 +201,7 @@ class Engine:
         say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
         say(done=True)
 
-    def _details(self, stored: StoredRun, criterion: str = "") -> dict[str, Any]:
+    def _details(self, stored: StoredRun, criterion: str = "") -> dict[str, object]:
         """Rows, warnings and criteria of a life."""
         warnings = [text for part in stored.parts.values() for text in part.warnings]
         names = [str(name) for name in stored.parts["life"].dataset["criterion"].to_numpy()]
@@ -339,7 +339,7 @@ class Engine:
 
     # Taking home.
 
-    def _export(self, say: Say, run: str, kind: str, view: dict[str, Any] | None = None) -> None:
+    def _export(self, say: Say, run: str, kind: str, view: dict[str, object] | None = None) -> None:
         from treadload.app.export_files import write_export
 
         stored = self._run_of(run)

@@ -74,7 +74,7 @@ class Engine:
         """Of the process."""
         return self._process.pid
 
-    async def ask(self, do: str, **question: object) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, do: str, **question: object) -> AsyncIterator[dict[str, object]]:
         """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
@@ -126,7 +126,7 @@ class Engine:
         for queue in self._waiting.values():
             queue.put_nowait(None)
 
-    async def _send(self, question: dict[str, Any]) -> None:
+    async def _send(self, question: dict[str, object]) -> None:
         assert self._process.stdin is not None
         try:
             self._process.stdin.write(json.dumps(question).encode() + b"\n")

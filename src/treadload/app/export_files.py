@@ -6,7 +6,6 @@ import io
 import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 from treadload.composing import BaseResult
 from treadload.errors import InputError
@@ -25,7 +24,7 @@ def write_export(
     kind: str,
     folder: Path,
     run: str,
-    view: dict[str, Any],
+    view: dict[str, object],
 ) -> str:
     """Write a file of a run in the folder; returns its name.
 

@@ -103,7 +103,7 @@ class Field:
             return [self._value(part.strip()) for part in bare.replace(";", ",").split(",") if part.strip()]
         return self._value(bare)
 
-    def _value(self, bare: str) -> Any:
+    def _value(self, bare: str) -> object:
         if self.kind == TEXT:
             return bare
         if not self.unit or self.si == "degC":
@@ -113,7 +113,7 @@ class Field:
         return f"{bare} {self.unit}" if bare[-1].isdigit() or bare[-1] in ".," else bare
 
 
-def _number(bare: str) -> Any:
+def _number(bare: str) -> object:
     for kind in (int, float):
         try:
             return kind(bare)

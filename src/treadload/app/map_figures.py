@@ -6,7 +6,7 @@ import json
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from treadload.app.result_rows import quiet_groups
 from treadload.composing import BaseResult
@@ -17,6 +17,9 @@ from treadload.footprint import Footprint
 from treadload.plots import interactive
 from treadload.plots.interactive import Cut, Field
 from treadload.response import Response
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 Parts = Mapping[str, BaseResult]
 # Results that have maps.
@@ -30,7 +33,7 @@ _LESS, _MORE, _OVER = r"(?:<|\\u003c)", r"(?:>|\\u003e)", r"(?:/|\\u002f)"
 _STRANGE = re.compile(rf"{_LESS}(?!{_OVER}?(?:b|br|i|sub|sup|extra){_OVER}?{_MORE})", re.IGNORECASE)
 
 
-def as_text(figure: Any) -> str:
+def as_text(figure: Figure | SourcedFigure) -> str:
     """A figure as JSON for the browser, in which a tag that a name of a file brings is a text."""
     text: str = figure.to_json()
     return _STRANGE.sub("&lt;", text)
@@ -94,7 +97,7 @@ def named_places(parts: Parts) -> list[interactive.Place]:
     return interactive.places_of(parts["damage"]) if "damage" in parts and worst(parts) else []
 
 
-def _narrowed(figure: Any, width: float) -> Any:
+def _narrowed(figure: Figure, width: float) -> Figure:
     """The figure, its colour bars named by their units alone where there is no room for words."""
     if width < _WIDE:
         for trace in figure.data:
@@ -122,9 +125,11 @@ def field_of(parts: Parts, name: str, depth: int = 0) -> Field:
 
 
 def cut_of(parts: Parts, line: Sequence[float] | None) -> Cut:
-    """The line of the slice."""
+    """The line of the slice, inside the map."""
     source = parts.get("contact") or next(iter(parts.values()))
-    return Cut.along(source) if line is None else Cut((line[0], line[1]), (line[2], line[3]))
+    if line is None:
+        return Cut.along(source)
+    return Cut((line[0], line[1]), (line[2], line[3])).within(source)
 
 
 def along(
@@ -162,12 +167,12 @@ def along(
 class SourcedFigure:
     """A figure along a line, mm, and the grids that a browser holds to draw other lines."""
 
-    figure: Any
+    figure: Figure
     grids: list[dict[str, Any]]
     line: tuple[float, ...]
 
     @classmethod
-    def of(cls, figure: object, grids: list[dict[str, Any]], cut: Cut) -> Any:
+    def of(cls, figure: Figure, grids: list[dict[str, Any]], cut: Cut) -> Figure | SourcedFigure:
         """The figure with its grids, or the figure alone where they are too large to be sent."""
         if interactive.held_numbers(grids) > interactive.MOST_HELD:
             return figure
@@ -181,7 +186,7 @@ class SourcedFigure:
 
 def difference(
     left: Parts, right: Parts, name: str, *, theme: str, width: float, labels: Sequence[str]
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """Two results and what sets them apart, on one scale."""
     part, _, inner = name.partition("/")
     for parts, label in zip((left, right), labels, strict=True):

@@ -86,7 +86,7 @@ class Page:
     async def started(self) -> None:
         """The browser is there, and what it is like is known."""
 
-    def view_options(self) -> dict[str, Any]:
+    def view_options(self) -> dict[str, object]:
         """What a solve is asked for, besides the run, its tables and the theme."""
         return {}
 

@@ -6,22 +6,25 @@ import base64
 import inspect
 import io
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import TYPE_CHECKING, cast
 
 from treadload.composing import BaseResult
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, figures_of
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 Parts = Mapping[str, BaseResult]
 Listed = tuple[str, RegisteredFigure, BaseResult, Drawing]
 
 
-def pictures_of(name: str, parts: Parts) -> dict[str, dict[str, Any]]:
+def pictures_of(name: str, parts: Parts) -> dict[str, dict[str, object]]:
     """The figures of a part of a run by their keys. name: of the part. parts: of the run, by their names."""
     return {key: _picture(figure, part, drawing) for key, figure, part, drawing in _listed(name, parts)}
 
 
-def pictures_for(name: str, parts: Parts, criterion: str) -> dict[str, dict[str, Any]]:
+def pictures_for(name: str, parts: Parts, criterion: str) -> dict[str, dict[str, object]]:
     """Those figures of a part that are drawn for one criterion, for this one."""
     return {
         key: _picture(figure, part, Drawing({**drawing.options, "criterion": criterion}, drawing.title))
@@ -35,7 +38,7 @@ def titles_of(parts: Parts) -> dict[str, str]:
     return {key: drawing.title for name in parts for key, _, _, drawing in _listed(name, parts)}
 
 
-def picture_of(key: str, parts: Parts) -> dict[str, Any]:
+def picture_of(key: str, parts: Parts) -> dict[str, object]:
     """The figure of a run that has a key. Raises InputError for another key."""
     for name in parts:
         for name_of_figure, figure, part, drawing in _listed(name, parts):
@@ -57,18 +60,18 @@ def _listed(name: str, parts: Parts) -> Iterator[Listed]:
             yield f"{name}.{figure.name}{f'.{number}' if number else ''}", figure, part, drawing
 
 
-def _picture(figure: RegisteredFigure, part: BaseResult, drawing: Drawing) -> dict[str, Any]:
+def _picture(figure: RegisteredFigure, part: BaseResult, drawing: Drawing) -> dict[str, object]:
     """Address and title of a picture; where it cannot be drawn, the reason in place of the address."""
     about = {"title": drawing.title, "wide": figure.wide}
     try:
-        return {**about, "url": as_url(figure.draw(part, **drawing.options))}
+        return {**about, "url": as_url(cast("Figure", figure.draw(part, **drawing.options)))}
     # One figure that fails, ours or another package's, does not take the others with it.
     except Exception as error:
         reason = one_line(str(error)).rstrip(".") or type(error).__name__
         return {**about, "url": "", "missing": f"{drawing.title} could not be drawn: {reason}."}
 
 
-def as_url(figure: Any) -> str:
+def as_url(figure: Figure) -> str:
     """A figure as the address of a picture that holds it."""
     out = io.BytesIO()
     figure.savefig(out, format="svg", metadata={"Date": None})

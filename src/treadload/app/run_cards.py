@@ -32,8 +32,8 @@ class RunCards:
         self,
         session: Session,
         page: str,
-        show: Callable[[Run], Any],
-        compare: Callable[[Run, Run], Any] | None = None,
+        show: Callable[[Run], object],
+        compare: Callable[[Run, Run], object] | None = None,
     ) -> None:
         self._session, self._page, self._show, self._compare = session, page, show, compare
         self._pair: dict[str, Run] = {}

@@ -78,7 +78,7 @@ class Session:
                 self._engines[page] = engine
             return engine
 
-    async def ask(self, page: str, do: str, **question: object) -> AsyncIterator[dict[str, Any]]:
+    async def ask(self, page: str, do: str, **question: object) -> AsyncIterator[dict[str, object]]:
         """Answers of the process of a page, see `Engine.ask`."""
         engine = await self.engine(page)
         async for answer in engine.ask(do, **question):

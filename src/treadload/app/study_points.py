@@ -17,7 +17,7 @@ from treadload.sweeps import Sweep
 _MOST_VALUES, _MOST_ROWS, _MOST_LETTERS = 2000, 40, 80
 
 
-def about_study(study: Sweep) -> dict[str, Any]:
+def about_study(study: Sweep) -> dict[str, object]:
     """Dimensions with their values in words, results that differ, fields that were kept, a summary."""
     view = View.of(study)
     dims = []

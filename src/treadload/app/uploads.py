@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import weakref
+from collections.abc import Awaitable, Callable
 from typing import Any
 
 from nicegui import events, ui
@@ -15,6 +16,19 @@ from treadload.errors import InputError
 _TOO_LARGE = f"this file is not of the kind that goes here, or larger than {MOST_UPLOADED // 2**20} MB"
 
 
+def _receiver(page: weakref.ref[Uploads], number: int) -> Callable[[events.UploadEventArguments], Awaitable[None]]:
+    """What an upload calls, without keeping its page: the route of an upload outlives the page in caches of FastAPI,
+    4096 routes of them, and a page with all its fields would stay with it.
+    """
+
+    async def received(event: events.UploadEventArguments) -> None:
+        uploads = page()
+        if uploads is not None:
+            await uploads.uploaded(event, number)
+
+    return received
+
+
 class Uploads:
     """What is wrong with the whole, and files that are uploaded."""
 
@@ -22,6 +36,8 @@ class Uploads:
         self.session = session
         self._problems: Any = None
         self._has_problem = False
+        # Of each button: the suffixes that it takes, and who is called with the name of the file.
+        self._receivers: list[tuple[tuple[str, ...], Callable[[str], object] | None]] = []
 
     def build(self) -> None:
         """Put the place for problems on the page."""
@@ -43,16 +59,18 @@ class Uploads:
     def upload(self, text: str, suffixes: tuple[str, ...], kept: Callable[[str], object] | None) -> None:
         """A button that asks for a file. kept: called with the name under which it is kept; None for a case."""
         with ui.element("div").classes("upload"):
+            number = len(self._receivers)
+            self._receivers.append((suffixes, kept))
             chooser = ui.upload(
                 auto_upload=True, max_file_size=MOST_UPLOADED, on_rejected=lambda: self.show_problem(_TOO_LARGE),
-                on_upload=lambda event: self._uploaded(event, suffixes, kept),
+                on_upload=_receiver(weakref.ref(self), number),
             )  # fmt: skip
             with_attributes(chooser, accept=",".join(suffixes), aria_hidden="true")
             plain(text, lambda: chooser.run_method("pickFiles"))
 
-    async def _uploaded(
-        self, event: events.UploadEventArguments, suffixes: tuple[str, ...], kept: Callable[[str], object] | None
-    ) -> None:
+    async def uploaded(self, event: events.UploadEventArguments, number: int) -> None:
+        """Keep a file, or show why not. number: of the button that it came by."""
+        suffixes, kept = self._receivers[number]
         try:
             content = await event.file.read()
             if len(content) > MOST_UPLOADED:

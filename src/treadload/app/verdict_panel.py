@@ -25,7 +25,7 @@ class VerdictPanel:
     """
 
     def __init__(
-        self, go: Callable[[PageRow], Any], take: Callable[[str], object], home: dict[str, str] | None = None,
+        self, go: Callable[[PageRow], object], take: Callable[[str], object], home: dict[str, str] | None = None,
         *, goes_to_groups: bool = False,
     ) -> None:  # fmt: skip
         self._home, self._has_case = home or _HOME, home is None

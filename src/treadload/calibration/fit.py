@@ -6,6 +6,7 @@ import math
 import os
 import time
 from collections.abc import Iterable, Mapping, Sequence
+from typing import TypedDict, Unpack
 
 import numpy as np
 from scipy.optimize import least_squares
@@ -42,32 +43,40 @@ _SIZES = {"camber": 0.02, "arm": 0.01, "shoulder_radius": 0.01, "edge_radius": 0
 _AT_BOUND = 1e-4
 
 
+class Setting(TypedDict, total=False):
+    """On what, and how finely, a tire is solved as it was measured; each with the default of `pose`."""
+
+    road: Pavement | None
+    friction: float
+    errors: Mapping[str, float | str] | None
+    spacing: float | None
+    tolerance: float
+
+
 def calibrate(
     tire: Tire,
     sought: Iterable[str | Unknown],
     data: Iterable[Measured],
     *,
-    road: Pavement | None = None,
-    friction: float = 0.7,
-    errors: Mapping[str, float | str] | None = None,
-    spacing: float | None = None,
-    tolerance: float = 1e-8,
     most: int = 30,
     jobs: int = 1,
     state: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
+    **setting: Unpack[Setting],
 ) -> Calibration:
     """Numbers of a tire from what was measured of it: weighted least squares on the real solver.
 
     tire: from which the search starts; numbers that are not sought stay. sought: names of numbers
     (`treadload.tire.numbers.NUMBERS`: "foundation", "modulus", "crown_radius", …, or "friction"), or `Unknown` with
     start and bounds. data: rows at any loads and pressures, see `Measured`; no peaks, which depend on the cells.
-    road: that it was measured on; left out, a flat track of steel. friction: Coulomb's, of rolling readings.
+    most: steps of the search. jobs: processes. state: file that keeps every point that was solved, so
+    that a search goes on where it stopped. progress: called with (done, expected, what) after every contact.
+    setting: road=, friction=, errors=, spacing= and tolerance=.
+    road: that it was measured on; left out, a flat track of steel. friction: Coulomb's, of rolling readings, 0.7.
     errors: standard deviations of readings by name, for rows without their own, SI or texts, "0.3 mm", "2 %". Where
     none is given, a customary one weighs the reading, and the scatter of the data tells the size of all errors.
     spacing: cells of the contact, m; left out, 6 mm, and 3 mm where shares, maps or widths are fitted. tolerance: of
-    normal contact. most: steps of the search. jobs: processes. state: file that keeps every point that was solved, so
-    that a search goes on where it stopped. progress: called with (done, expected, what) after every contact.
+    normal contact, 1e-8.
 
     A standing tire is pressed on without friction; slip stiffnesses are those of `tire_card`. Under pins the tire
     rolls freely, and they lie where they read its pressure best. E scales out of the tables of ribs and
@@ -83,11 +92,9 @@ def calibrate(
         raise InputError(f"jobs must be a whole number of processes from 1, got {jobs!r}")
     if isinstance(most, bool) or not isinstance(most, int) or most < 1:
         raise InputError(f"most must be a whole number of steps from 1, got {most!r}")
-    problem = pose(
-        tire, sought, data, road=road, friction=friction, errors=errors, spacing=spacing, tolerance=tolerance
-    )
+    problem = pose(tire, sought, data, **setting)
     names = problem.sought
-    start, low, high = np.array([unknown.on(tire, friction) for unknown in names]).T
+    start, low, high = np.array([unknown.on(tire, problem.friction) for unknown in names]).T
     size = np.array([_size(unknown, value) for unknown, value in zip(names, start, strict=True)])
     with Evaluations(problem, jobs=jobs, state=state, progress=progress).open() as solves:
         search = _Search(problem, solves, size, low, high)

@@ -273,7 +273,7 @@ class Model:
             min((grid.nx + 2 * _ROOM) * step, along), min((grid.ny + 2 * _ROOM) * step, across), step
         )
 
-    def _print(self, tire: Tire, row: int) -> dict[str, Any]:
+    def _print(self, tire: Tire, row: int) -> dict[str, object]:
         measured = self.problem.data[row]
         pressure, grid, approach = self.pressed(tire, row)
         values_by_name: dict[str, Any] = {"deflection": approach}
@@ -305,7 +305,7 @@ class Model:
         clipped = cut_off(seen(load, sensels, 0.0), sensor.threshold, sensor.saturation)
         return blocks.shares(np.where(sensor.sensels, clipped, 0.0))
 
-    def _card(self, tire: Tire, measured: Measured) -> dict[str, Any]:
+    def _card(self, tire: Tire, measured: Measured) -> dict[str, object]:
         slopes = set(measured.readings) - {"effective_rolling_radius"}
         assert measured.load is not None
         card = tire_card(
@@ -319,7 +319,7 @@ class Model:
         names = [name for name in measured.readings if READINGS[name].how == "card"]
         return {name: float(card[name].to_numpy().ravel()[0]) for name in names}
 
-    def _rolling(self, tire: Tire, friction: float, measured: Measured) -> dict[str, Any]:
+    def _rolling(self, tire: Tire, friction: float, measured: Measured) -> dict[str, object]:
         state = Rolling(
             normal_load=measured.load,
             friction=friction,

@@ -30,12 +30,12 @@ def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
     return table
 
 
-def set_key(table: dict[str, Any], path: str, value: object) -> None:
+def set_key(table: dict[str, object], path: str, value: object) -> None:
     """Set a key in the tables of a case. path: parts joined by points. Raises InputError."""
     _set(table, path.split("."), value, path)
 
 
-def _set(table: dict[str, Any], path: Sequence[str], value: object, change: str) -> None:
+def _set(table: dict[str, object], path: Sequence[str], value: object, change: str) -> None:
     here: Any = table
     for number, part in enumerate(path[:-1]):
         before = ".".join(path[:number])
@@ -71,7 +71,7 @@ def _row(rows: list[Any], part: str, before: str, change: str) -> int:
     return int(part)
 
 
-def read_value(value: str) -> Any:
+def read_value(value: str) -> object:
     """A value of TOML, or the text itself."""
     try:
         table = parse_toml(f"value = {value}", value)

@@ -29,7 +29,7 @@ def _season(name: str, share: Share, temperature: Celsius | tuple[Celsius, ...])
 
 
 _Season: Any = table_of(_season)
-SEASONS, HEAT, THERMAL = As(tuple[_Season, ...]), As(Heat), As(Thermal)
+SEASONS, HEAT, THERMAL = As(tuple[_Season, ...]), As(Heat), As(bool | Thermal)
 
 
 class AirPart(Table):
@@ -79,7 +79,8 @@ class ClimatePart(Table):
     which the hours of a month are gathered; 4 if left out. hours: shares of the passes in the 24 hours of a day; left
     out, all alike. sublayers: greatest thickness of the parts that courses are divided into below a file or air, or
     where they age; left out, 20 mm at the surface and more below. heat: what the road absorbs, conducts and stores.
-    thermal: daily thermal stress in the damage; left out, none, see docs/explanation/climate.md.
+    thermal: daily thermal stress in the damage, beside the passes; left out, it counts with its defaults below a file
+    or air; false for none; see docs/explanation/climate.md.
     """
 
     one_of: ClassVar = ("temperature", "months", "seasons", "file", "air")
@@ -93,7 +94,7 @@ class ClimatePart(Table):
     hours: tuple[Share, ...] | None = None
     sublayers: Length | None = None
     heat: Annotated[Any, HEAT] = None
-    thermal: Annotated[Any, THERMAL] = None
+    thermal: Annotated[Any, THERMAL] = True
 
     @model_validator(mode="after")
     def _one_kind(self) -> ClimatePart:
@@ -124,7 +125,10 @@ class ClimatePart(Table):
         climate = Climate.of_road(
             road, temperatures, parts=self.parts_of_day, hours=self.hours, sublayers=self.sublayers, ageing=aged
         )
-        return climate if self.thermal is None else replace(climate, thermal=THERMAL.build(self.thermal))
+        thermal = THERMAL.build(self.thermal)
+        if isinstance(thermal, bool):
+            thermal = Thermal() if thermal else None
+        return replace(climate, thermal=thermal)
 
     def temperatures(self, road: Pavement, folder: Path) -> RoadTemperatures:
         """Temperatures of a road below the weather, at the middles of its parts and all interfaces."""

@@ -26,7 +26,7 @@ class FilePart(Table):
     folder: Path = Field(default=Path("."), exclude=True, repr=False)
 
     @classmethod
-    def from_dict(cls, table: dict[str, Any], *, folder: Path | str = ".", name: str = "case") -> Self:
+    def from_dict(cls, table: dict[str, object], *, folder: Path | str = ".", name: str = "case") -> Self:
         """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
         if not isinstance(table, Mapping):
             raise InputError(f"{name}: a case is a table of keys and values, got {table!r}")
@@ -52,12 +52,12 @@ class FilePart(Table):
         """Case from TOML text. changes: as for `from_toml`. Raises InputError."""
         return cls.from_dict(changed(parse_toml(text, name), changes), folder=folder, name=name)
 
-    def __reduce__(self) -> tuple[Any, ...]:
+    def __reduce__(self) -> tuple[object, ...]:
         # Tables of kinds are made as they are read, and have no module to be found in.
         return type(self)._again, (self.as_tables(), self.folder)
 
     @classmethod
-    def _again(cls, table: dict[str, Any], folder: Path) -> Self:
+    def _again(cls, table: dict[str, object], folder: Path) -> Self:
         return cls.from_dict(table, folder=folder)
 
     def as_tables(self) -> dict[str, Any]:

@@ -64,7 +64,7 @@ def find_key(case: FilePart, name: str) -> str:
     raise InputError(f"the case has no key {name!r}; {nearest(name, short)}")
 
 
-def with_values(table: Mapping[str, object], values: Mapping[str, object]) -> dict[str, Any]:
+def with_values(table: Mapping[str, object], values: Mapping[str, object]) -> dict[str, object]:
     """A copy of the tables of a case with keys set. values: path → value. Raises InputError."""
     changed = copy.deepcopy(dict(table))
     for path, value in values.items():

@@ -15,7 +15,7 @@ from treadload.read import As, Table, table_of
 from treadload.units import Celsius, Frequency, Length
 
 
-def _finite(value: object) -> Any:
+def _finite(value: object) -> object:
     if isinstance(value, str) and value.strip().lower().startswith("inf"):
         raise ValueError(f"a semi-infinite layer is the last one: leave its thickness out, got {value!r}")
     return value

@@ -81,7 +81,7 @@ def read_case(path: str | os.PathLike[str], *, changes: Sequence[str] = ()) -> C
     return Case.from_toml(path, changes=changes)
 
 
-def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[str, Any]:
+def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[str, object]:
     """JSON schema (draft 2020-12) of a case, with what other packages bring.
 
     name: "run", "life" or "calibrate", the command that runs the case. Every key has its words and unit ("x-unit",
@@ -116,7 +116,7 @@ def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[s
     return {"$schema": _DIALECT, **_plain(whole)}
 
 
-def _wanted(root: dict[str, Any], defined: dict[str, Any]) -> Iterator[str]:
+def _wanted(root: dict[str, object], defined: dict[str, object]) -> Iterator[str]:
     """Names that are referred to and not yet defined, until there are none."""
     while True:
         named = {ref.removeprefix(REFERENCE) for ref in itertools.chain(_references(root), _references(defined))}
@@ -137,7 +137,7 @@ def _noted(broken: list[str] | None) -> Iterator[None]:
         broken.append(str(error))
 
 
-def _one_of(choice: Choice, broken: list[str] | None) -> dict[str, Any]:
+def _one_of(choice: Choice, broken: list[str] | None) -> dict[str, object]:
     """What may stand for a choice: a number, a word, or the table of one of its kinds."""
     registry = choice.registry
     arms: list[dict[str, Any]] = []
@@ -156,7 +156,7 @@ def _one_of(choice: Choice, broken: list[str] | None) -> dict[str, Any]:
     return {"oneOf": arms}
 
 
-def _gather(schema: object, defined: dict[str, Any]) -> None:
+def _gather(schema: object, defined: dict[str, object]) -> None:
     """Take the definitions out of a schema and of what it holds."""
     if isinstance(schema, dict):
         for name, definition in schema.pop("$defs", {}).items():

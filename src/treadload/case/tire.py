@@ -5,11 +5,12 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
-from pydantic import model_validator
+from pydantic import field_validator, model_validator
 
 from treadload.case.choices import TIRE_MATERIAL, TireMaterial
 from treadload.read import As, Table
 from treadload.tire import Belt, Tire, TreadProfile, example_mesh
+from treadload.tire.tire import BLOCKS_ROLL
 from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.
@@ -63,6 +64,13 @@ class TirePart(Table):
     belt: Annotated[Any, BELT] = None
     tread: Literal["layer", "ribs"] = "layer"
     undertread: Length | None = None
+
+    @field_validator("tread", mode="before")
+    @classmethod
+    def _no_blocks(cls, tread: object) -> object:
+        if tread == "blocks":
+            raise ValueError(f'must be "layer" or "ribs"; {BLOCKS_ROLL}')
+        return tread
 
     @model_validator(mode="after")
     def _one_surface(self) -> TirePart:

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from treadload.cli import ending
 
 __all__ = ["app", "main"]
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     if name != "app":
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from treadload.cli.commands import app

@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from treadload.cli import shell
 from treadload.cli.progress import stages
+
+if TYPE_CHECKING:
+    from treadload.footprint import FootprintComparison
 
 Tell = Callable[[str], None]
 Footprint = Annotated[
@@ -31,71 +35,79 @@ Registration = Annotated[str, typer.Option(help="How the footprint is laid: full
 Tolerance = Annotated[str, typer.Option(help="Share by which the loads may differ.")]
 
 
+@dataclass(frozen=True)
+class Recording:
+    """How the file of a footprint is read, as typed: options of `read_footprint`."""
+
+    units: Units = None
+    spacing: Spacing = None
+    frame: Frame = "peak"
+    travel: Travel = "right"
+    seen_from: SeenFrom = "above"
+    calibration: Calibration = None
+    load: Load = None
+    threshold: Threshold = None
+    saturation: Saturation = None
+    dead: Dead = "leave"
+    colours: Colours = None
+    scale: Scale = None
+
+    def options(self) -> dict[str, object]:
+        """Those that are given, as `read_footprint` takes them. Raises InputError for a scale that is none."""
+        from treadload.errors import InputError
+
+        options = {name: value for name, value in asdict(self).items() if value is not None}
+        options["frame"] = int(self.frame) if self.frame.isdigit() else self.frame
+        if self.scale is not None:
+            ends = self.scale.split(" to ")
+            if len(ends) != 2:
+                raise InputError(f'the scale is written like "0 kPa to 1000 kPa", got {self.scale!r}')
+            options["scale"] = tuple(ends)
+        return options
+
+
+@dataclass(frozen=True)
+class Agreement:
+    """How footprint and contact are compared, as typed."""
+
+    registration: Registration = "full"
+    load_tolerance: Tolerance = "25 %"
+
+
 def compare_files(
-    result: Path,
-    footprint: Path,
-    tell: Tell,
-    *,
-    frame: str,
-    colours: str | None,
-    scale: str | None,
-    registration: str,
-    load_tolerance: str,
-    **typed: Any,
-) -> Any:
-    """A result file beside a footprint file. typed: options of `read_footprint` as they were typed."""
+    result: Path, footprint: Path, tell: Tell, recording: Recording, agreement: Agreement
+) -> FootprintComparison:
+    """A result file beside a footprint file."""
     from treadload.errors import InputError
     from treadload.footprint import compare, read_footprint
     from treadload.results import open_results
     from treadload.units import quantity
 
     tell(f"reading {footprint}")
-    options = {name: value for name, value in typed.items() if value is not None}
-    options["frame"] = int(frame) if frame.isdigit() else frame
-    if colours is not None:
-        options["colours"] = colours
-    if scale is not None:
-        ends = scale.split(" to ")
-        if len(ends) != 2:
-            raise InputError(f'the scale is written like "0 kPa to 1000 kPa", got {scale!r}')
-        options["scale"] = tuple(ends)
+    options: Any = recording.options()
     measured = read_footprint(footprint, **options)
     results = open_results(result)
     if "contact" not in results:
         raise InputError(f"{result} has no contact to compare with; it holds {', '.join(results) or 'no result'}")
     tell("laying the footprint onto the contact")
-    how: Any = registration
-    return compare(results.contact, measured, registration=how, load_tolerance=quantity(load_tolerance, ""))
+    how: Any = agreement.registration
+    return compare(results.contact, measured, registration=how, load_tolerance=quantity(agreement.load_tolerance, ""))
 
 
+@shell.with_options
 def compare(
     result: Annotated[Path, typer.Argument(help="Result file of `treadload run`, with a contact.")],
     footprint: Footprint,
+    *,
     output: shell.Output = None,
     report: shell.Report = None,
-    units: Units = None,
-    spacing: Spacing = None,
-    frame: Frame = "peak",
-    travel: Travel = "right",
-    seen_from: SeenFrom = "above",
-    calibration: Calibration = None,
-    load: Load = None,
-    threshold: Threshold = None,
-    saturation: Saturation = None,
-    dead: Dead = "leave",
-    colours: Colours = None,
-    scale: Scale = None,
-    registration: Registration = "full",
-    load_tolerance: Tolerance = "25 %",
+    recording: Recording,
+    agreement: Agreement,
     quiet: shell.Quiet = False,
 ) -> None:
     """Lay a measured footprint onto a computed contact, and tell how they agree."""
     shell.check_files(output, report)
     with stages(shell.err, quiet=quiet) as tell:
-        comparison = compare_files(
-            result, footprint, tell, units=units, spacing=spacing, frame=frame, travel=travel, seen_from=seen_from,
-            calibration=calibration, load=load, threshold=threshold, saturation=saturation, dead=dead,
-            colours=colours, scale=scale, registration=registration, load_tolerance=load_tolerance,
-        )  # fmt: skip
+        comparison = compare_files(result, footprint, tell, recording, agreement)
     shell.out.print(comparison.summary(), markup=False)
     shell.write_files(comparison, output, report, f"{result.name} and {footprint.name}", quiet=quiet)

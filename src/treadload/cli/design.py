@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
@@ -11,18 +12,26 @@ from treadload.cli import shell
 from treadload.cli.progress import counts
 
 
+@dataclass(frozen=True)
+class Search:
+    """What the thickness must achieve, and where it is searched for, as typed."""
+
+    years: Annotated[
+        float | None, typer.Option(min=0.0, help="That the road is to last; those of the traffic if left out.")
+    ] = None
+    risk: Annotated[
+        str | None, typer.Option(help='Of failing, as "5%"; that of the laws if left out.', show_default=False)
+    ] = None
+    low: Annotated[str, typer.Option(help="Least thickness to look at.")] = "40 mm"
+    high: Annotated[str, typer.Option(help="Largest thickness to look at.")] = "400 mm"
+    step: Annotated[str, typer.Option(help="The thickness is rounded up to it.")] = "10 mm"
+
+
+@shell.with_options
 def design(
     case: Annotated[Path, typer.Argument(help="The design case, a TOML file.")],
     layer: Annotated[str, typer.Option(help="Its name, or its number from the surface, 1 the top one.")],
-    years: Annotated[
-        float | None, typer.Option(min=0.0, help="That the road is to last; those of the traffic if left out.")
-    ] = None,
-    risk: Annotated[
-        str | None, typer.Option(help='Of failing, as "5%"; that of the laws if left out.', show_default=False)
-    ] = None,
-    low: Annotated[str, typer.Option(help="Least thickness to look at.")] = "40 mm",
-    high: Annotated[str, typer.Option(help="Largest thickness to look at.")] = "400 mm",
-    step: Annotated[str, typer.Option(help="The thickness is rounded up to it.")] = "10 mm",
+    search: Search,
     output: shell.Output = None,
     workers: Annotated[int | None, typer.Option(min=1, help="Threads; all cores if left out.")] = None,
     changes: shell.Changes = None,
@@ -40,11 +49,11 @@ def design(
     check_output(path)
     question = Case.from_toml(case, changes=changes or ())
     check_writable(path)
-    share = None if risk is None else quantity(risk, "")
+    share = None if search.risk is None else quantity(search.risk, "")
     with counts(shell.err, quiet=quiet) as tell:
         designed = design_case(
-            question, int(layer) if layer.isdigit() else layer, years=years, risk=share,
-            between=(quantity(low, "m"), quantity(high, "m")), step=quantity(step, "m"),
+            question, int(layer) if layer.isdigit() else layer, years=search.years, risk=share,
+            between=(quantity(search.low, "m"), quantity(search.high, "m")), step=quantity(search.step, "m"),
             workers=workers, progress=tell,
         )  # fmt: skip
     shell.out.print(designed.summary(), markup=False)

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from treadload.cli import shell
+
+if TYPE_CHECKING:
+    from treadload.composing import BaseResult
 
 
 def export(
@@ -29,8 +32,10 @@ def export(
     ] = None,
 ) -> None:  # fmt: skip
     """Write a result, or a part of it, for another program; the suffix says which."""
+    from treadload.contact import Contact
     from treadload.errors import InputError
     from treadload.files import TABLE, check_suffix
+    from treadload.response import Response
     from treadload.results import open_results
     from treadload.results.discs import equivalent_discs
     from treadload.results.exports import TABLES, write
@@ -40,23 +45,24 @@ def export(
     suffix = check_suffix(output, {**TABLES, **VTK, **TRACTIONS} if discs is None else TABLE, "results")
     opened = open_results(results)
 
-    def chosen(*kinds: str) -> Any:
-        name = part or next((kind for kind in kinds if kind in opened), "")
+    def chosen(*kinds: type[BaseResult]) -> BaseResult:
+        groups = [kind.group for kind in kinds]
+        name = part or next((group for group in groups if group in opened), "")
         if not name:
             raise InputError(
-                f"{results} holds no {' and no '.join(kinds)}; it holds {', '.join(opened) or 'nothing'}"
+                f"{results} holds no {' and no '.join(groups)}; it holds {', '.join(opened) or 'nothing'}"
             )
         return opened[name]
 
     if discs is not None:
-        equivalents = equivalent_discs(chosen("contact"), discs)
+        equivalents = equivalent_discs(chosen(Contact), discs)
         shell.out.print(equivalents.summary(), markup=False)
         files: tuple[Path, ...] = (equivalents.write_csv(output),)
     elif suffix in VTK:
-        kinds = ("response",) if suffix == ".vtr" else ("contact", "response")
+        kinds = (Response,) if suffix == ".vtr" else (Contact, Response)
         files = (write_vtk(chosen(*kinds), output),)
     elif suffix in TRACTIONS:
-        files = (write_tractions(chosen("contact"), output, units=units),)
+        files = (write_tractions(chosen(Contact), output, units=units),)
     else:
         files = write(opened.tree if not part else opened[part].dataset, output)
     shell.written(files)

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import dataclasses
 import functools
+import inspect
 import sys
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Annotated, NoReturn, ParamSpec
+from typing import Annotated, NoReturn, ParamSpec, get_type_hints
 
 import typer
 from rich.console import Console
@@ -63,6 +65,36 @@ DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and say 
 def names() -> Column:
     """A column of names that a case can copy: never broken into lines."""
     return Column("name", no_wrap=True)
+
+
+def with_options(command: Callable[..., None]) -> Callable[..., None]:
+    """A command that takes frozen groups of options: every field of such a dataclass is an option of its own.
+
+    The order of the options in the help is that of the parameters, a group's in its place.
+    """
+    hints = get_type_hints(command, include_extras=True)
+    groups = {name: hint for name, hint in hints.items() if inspect.isclass(hint) and dataclasses.is_dataclass(hint)}
+
+    def options() -> Iterator[inspect.Parameter]:
+        for name, parameter in inspect.signature(command).parameters.items():
+            if name not in groups:
+                yield parameter.replace(annotation=hints[name], kind=inspect.Parameter.KEYWORD_ONLY)
+                continue
+            annotations = get_type_hints(groups[name], include_extras=True)
+            for field in dataclasses.fields(groups[name]):
+                yield inspect.Parameter(
+                    field.name, inspect.Parameter.KEYWORD_ONLY, default=field.default,
+                    annotation=annotations[field.name],
+                )  # fmt: skip
+
+    @functools.wraps(command)
+    def gathered(**typed: object) -> None:
+        for name, group in groups.items():
+            typed[name] = group(**{field.name: typed.pop(field.name) for field in dataclasses.fields(group)})
+        command(**typed)
+
+    gathered.__signature__ = inspect.Signature(list(options()))  # type: ignore[attr-defined]
+    return gathered
 
 
 def one_sentence(command: Callable[_P, None]) -> Callable[_P, None]:

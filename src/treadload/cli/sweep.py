@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from treadload.cli import ending, shell
 from treadload.cli.progress import counts
+
+if TYPE_CHECKING:
+    from treadload.case import Case
+    from treadload.sweeps import Design
 
 Vary = Annotated[
     list[str] | None,
@@ -20,7 +25,7 @@ Vary = Annotated[
         show_default=False,
     ),
 ]
-Cases = Annotated[
+Table = Annotated[
     Path | None,
     typer.Option(
         "--table",
@@ -66,45 +71,72 @@ Scheduler = Annotated[
     str | None,
     typer.Option(help="A Dask scheduler instead, tcp://host:8786, or local.", show_default=False),
 ]
+Threads = Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")]
 
 
+@dataclass(frozen=True)
+class Cases:
+    """Which cases are solved, as typed."""
+
+    vary: Vary = None
+    table: Table = None
+    ids: Ids = None
+    sample: Sample = ""
+    seed: Seed = 0
+
+    def check(self) -> None:
+        """Raise InputError for options that exclude each other."""
+        from treadload.errors import InputError
+
+        if self.table is not None and (self.vary or self.sample):
+            raise InputError("--table gives all cases; leave out --vary and --sample, or the table")
+        if self.ids and self.table is None:
+            raise InputError("--id names a column of a table; give the table with --table")
+
+    def of(self, question: Case) -> Design:
+        """The cases of a question."""
+        from treadload.sweeps import from_file, from_texts
+
+        if self.table:
+            return from_file(question, self.table, ids=self.ids or ())
+        return from_texts(question, self.vary or (), sample=self.sample, seed=self.seed)
+
+
+@dataclass(frozen=True)
+class Workers:
+    """Where the cases are solved, as typed."""
+
+    jobs: Jobs = 1
+    in_threads: Threads = False
+    scheduler: Scheduler = None
+
+
+@shell.with_options
 def sweep(
     case: Annotated[Path, typer.Argument(help="The case, or the design case, a TOML file.")],
-    vary: Vary = None,
-    table: Cases = None,
-    ids: Ids = None,
-    sample: Sample = "",
-    seed: Seed = 0,
+    cases: Cases,
+    *,
     fields: FieldNames = None,
     output: Store = None,
-    jobs: Jobs = 1,
-    in_threads: Annotated[bool, typer.Option("--threads", help="Threads in place of processes.")] = False,
-    scheduler: Scheduler = None,
+    workers: Workers,
     changes: shell.Changes = None,
     dry_run: shell.DryRun = False,
     quiet: shell.Quiet = False,
 ) -> None:
     """Solve a case for many values of its inputs; goes on where it was interrupted."""
     from treadload.case.schema import read_case
-    from treadload.errors import InputError
-    from treadload.sweeps import from_file, from_texts, plan_sweep, sweep
+    from treadload.sweeps import plan_sweep, sweep
 
     question = read_case(case, changes=changes or ())
-    if table is not None and (vary or sample):
-        raise InputError("--table gives all cases; leave out --vary and --sample, or the table")
-    if ids and table is None:
-        raise InputError("--id names a column of a table; give the table with --table")
-    texts = vary or ()
-    design = (
-        from_file(question, table, ids=ids or ()) if table else from_texts(question, texts, sample=sample, seed=seed)
-    )
+    cases.check()
+    design = cases.of(question)
     path = output or case.with_suffix(".zarr")
     if dry_run:
         return shell.planned(plan_sweep(question, design, fields or ()), path)
     with counts(shell.err, quiet=quiet) as tell:
         study = sweep(
-            question, design, fields=fields or (), store=path, jobs=jobs, in_threads=in_threads, scheduler=scheduler,
-            progress=tell,
+            question, design, fields=fields or (), store=path, jobs=workers.jobs, in_threads=workers.in_threads,
+            scheduler=workers.scheduler, progress=tell,
         )  # fmt: skip
     shell.out.print(study.summary(), markup=False)
     shell.written([path])

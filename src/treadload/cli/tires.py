@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from treadload.cli import shell
 from treadload.cli.progress import stages
+
+if TYPE_CHECKING:
+    from treadload.tire.keywords import ScanKeys
 
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (
@@ -18,6 +22,67 @@ _OF_MESHES = (
 )  # fmt: skip
 
 
+@dataclass(frozen=True)
+class Reading:
+    """How a scan is read, as typed."""
+
+    units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None
+    nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None
+    known_length: Annotated[
+        str | None, typer.Option(help='A known length: its measure in the file and itself, "0.8123 = 1000 mm".')
+    ] = None
+    rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg"
+    camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg"
+    revolve: Annotated[str, typer.Option(help="Revolve the meridian, not the facets: yes, no or auto.")] = "auto"
+    smooth: Annotated[str, typer.Option(help='Length to smooth noise over, e.g. "6 mm"; no or auto.')] = "no"
+    outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove"
+    fill_holes: Annotated[
+        str, typer.Option(help="Fill holes of the tread from the rest of the turn: yes, no or auto.")
+    ] = "auto"
+    roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02
+
+    def lies(self) -> ScanKeys:
+        """How the wheel lies in the file, and what is done to its tread."""
+        from treadload.tire.scan.options import smooth_choice, yes_no_auto
+        from treadload.units import quantity
+
+        diameter = self.nominal_diameter
+        return {
+            **self.read_by(self.known_length),
+            "nominal_diameter": None if diameter is None else quantity(diameter, "m"),
+            "rotation": quantity(self.rotation, "rad"),
+            "camber": quantity(self.camber, "rad"),
+            "revolve": yes_no_auto("revolve", self.revolve),
+            "fill_holes": yes_no_auto("fill_holes", self.fill_holes),
+            "smooth": smooth_choice(self.smooth),
+            "outliers": self.outliers,  # type: ignore[typeddict-item]  # checked where it is used
+            "roundness": self.roundness,
+        }
+
+    def read_by(self, length: str | None) -> ScanKeys:
+        """Unit, noise and scale, which an earlier scan of the tire shares. length: that is known, as typed."""
+        from treadload.tire.scan.options import scale_choice, smooth_choice
+
+        scale = None if length is None else scale_choice(length)
+        return {"units": self.units, "smooth": smooth_choice(self.smooth), "scale": scale}
+
+
+@dataclass(frozen=True)
+class Worn:
+    """What the tire was before, as typed."""
+
+    reference: Annotated[
+        Path | None, typer.Option(help="An earlier scan of the same tire: what was worn off.", show_default=False)
+    ] = None
+    reference_length: Annotated[
+        str | None,
+        typer.Option(
+            help="The known length as the earlier scan has it; --known-length if left out.", show_default=False
+        ),
+    ] = None
+
+
+@shell.with_options
 def scan(
     context: typer.Context,
     mesh: Annotated[
@@ -26,31 +91,11 @@ def scan(
             help="Mesh (OBJ, PLY, STL, GLB, OFF), cloud (PLY, XYZ, LAS, E57), or a TOML of fringes or of a laser."
         ),
     ],
+    *,
     output: shell.Output = None,
-    units: Annotated[str | None, typer.Option(help="Unit of the file: m, cm, mm or inch.")] = None,
-    nominal_diameter: Annotated[str | None, typer.Option(help='Outer diameter, e.g. "1076 mm".')] = None,
-    known_length: Annotated[
-        str | None, typer.Option(help='A known length: its measure in the file and itself, "0.8123 = 1000 mm".')
-    ] = None,
-    rotation: Annotated[str, typer.Option(help="Angle of the wheel about its axle.")] = "0 deg",
-    camber: Annotated[str, typer.Option(help="Lean to the right.")] = "0 deg",
-    revolve: Annotated[str, typer.Option(help="Revolve the meridian, not the facets: yes, no or auto.")] = "auto",
-    smooth: Annotated[str, typer.Option(help='Length to smooth noise over, e.g. "6 mm"; no or auto.')] = "no",
-    outliers: Annotated[str, typer.Option(help="Points that stick out: remove, refuse or keep.")] = "remove",
-    fill_holes: Annotated[
-        str, typer.Option(help="Fill holes of the tread from the rest of the turn: yes, no or auto.")
-    ] = "auto",
-    roundness: Annotated[float, typer.Option(help="Share of the radius by which it may vary.")] = 0.02,
+    reading: Reading,
     spacing: Annotated[str, typer.Option(help="Cell size of the height map.")] = "3 mm",
-    reference: Annotated[
-        Path | None, typer.Option(help="An earlier scan of the same tire: what was worn off.", show_default=False)
-    ] = None,
-    reference_length: Annotated[
-        str | None,
-        typer.Option(
-            help="The known length as the earlier scan has it; --known-length if left out.", show_default=False
-        ),
-    ] = None,
+    worn: Worn,
     figure: Annotated[
         Path | None, typer.Option(help="Picture of what was read and done: .png, .svg or .pdf.", show_default=False)
     ] = None,
@@ -62,12 +107,11 @@ def scan(
     from treadload.results.exports import check_output, write
     from treadload.results.scanned import scan_fields, scan_map, scan_wear
     from treadload.tire import Tire
-    from treadload.tire.scan.options import scale_choice, smooth_choice, yes_no_auto
     from treadload.units import quantity
 
     if output is not None:
         check_output(output)
-    if reference_length is not None and reference is None:
+    if worn.reference_length is not None and worn.reference is None:
         raise InputError("--reference-length is of an earlier scan: give it with --reference, or leave it out")
     if mesh.suffix.lower() == ".toml" and not (lines_of_wheel := _turned(mesh)):
         sources = {name: context.get_parameter_source(name) for name in _OF_MESHES}
@@ -84,29 +128,12 @@ def scan(
         check_writable(figure)
     with stages(shell.err, quiet=quiet) as tell:
         tell(f"reading {mesh}")
-        tire = Tire.from_scan(
-            mesh,
-            units=units,
-            nominal_diameter=None if nominal_diameter is None else quantity(nominal_diameter, "m"),
-            rotation=quantity(rotation, "rad"),
-            camber=quantity(camber, "rad"),
-            revolve=yes_no_auto("revolve", revolve),
-            fill_holes=yes_no_auto("fill_holes", fill_holes),
-            smooth=smooth_choice(smooth),
-            outliers=outliers,  # type: ignore[arg-type]  # checked where it is used
-            roundness=roundness,
-            scale=None if known_length is None else scale_choice(known_length),
-        )
+        tire = Tire.from_scan(mesh, **reading.lies())
         earlier = None
-        if reference is not None:
-            tell(f"reading {reference}")
-            length = reference_length or known_length
-            earlier = Tire.from_scan(
-                reference,
-                units=units,
-                smooth=smooth_choice(smooth),
-                scale=None if length is None else scale_choice(length),
-            )
+        if worn.reference is not None:
+            tell(f"reading {worn.reference}")
+            length = worn.reference_length or reading.known_length
+            earlier = Tire.from_scan(worn.reference, **reading.read_by(length))
     shell.out.print(str(tire.quality), markup=False)
     if earlier is not None:
         shell.out.print(str(scan_wear(tire, earlier)), markup=False)

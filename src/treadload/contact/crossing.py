@@ -12,27 +12,27 @@ import math
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, Unpack
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
-from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
+from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.crossing_fields import STRIDE, Moved, Scene, doubts, fields_of
 from treadload.contact.friction.laws import Interface
+from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.relief import above, check_step
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solve import check_border, place
-from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.pavement import Pavement
 from treadload.pavement.relief import Relief
 from treadload.rows import Row, extremes, row
@@ -115,21 +115,20 @@ def cross_obstacle(
     positions: Sequence[float] | Array | None = None,
     hold: Literal["load", "axle"] = "load",
     spacing: float | None = None,
-    tolerance: float = 1e-6,
-    road_compliance: RoadCompliance = "half_space",
-    progress: Progress | None = None,
+    **numerics: Unpack[NumericsKeys],
 ) -> Crossing:
     """A wheel at one position after another over a road that is no plane, without inertia.
 
-    tire, road, spacing, tolerance, road_compliance: as in `solve_contact`; an elastic tire. rolling: the load, and
-    friction with forces or creepages; friction 0 leaves shear out. relief: of the road, such as
-    `pavement.RoadStep`, `RoadJoint` or `RoadPlate`, its middle at x = 0. positions: of the axle along travel, m,
-    ascending, moved to whole cells; left out, from clear of the obstacle to clear of it, every fourth cell. hold:
-    "load" lets the axle rise and sink, "axle" keeps it at the height that the load gives on the plane z = 0.
-    Returns a history with its positions. Raises InputError, GeometryError and ConvergenceError as `solve_contact`.
+    tire, road, spacing: as in `solve_contact`; an elastic tire. numerics: tolerance=, road_compliance= and progress=
+    likewise. rolling: the load, and friction with forces or creepages; friction 0 leaves shear out. relief: of the
+    road, such as `pavement.RoadStep`, `RoadJoint` or `RoadPlate`, its middle at x = 0. positions: of the axle along
+    travel, m, ascending, moved to whole cells; left out, from clear of the obstacle to clear of it, every fourth
+    cell. hold: "load" lets the axle rise and sink, "axle" keeps it at the height that the load gives on the plane z =
+    0. Returns a history with its positions. Raises InputError, GeometryError and ConvergenceError as `solve_contact`.
     """
     began = time.perf_counter()
-    tell = progress or (lambda text: None)
+    how = Numerics(**numerics)
+    tolerance, road_compliance, tell = how.tolerance, how.road_compliance, how.tell
     if hold not in ("load", "axle"):
         raise InputError(f'hold must be "load" or "axle", got {hold!r}')
     if not isinstance(relief, Relief):
@@ -191,15 +190,15 @@ def _reach(
     return grid.dx, min(edges) - 1.25 * touching, max(edges) + 1.25 * touching
 
 
-def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, high: float) -> Any:
+def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, high: float) -> IntArray:
     """Whole numbers of cells, ascending."""
     if positions is None:
         # Symmetric about the middle, so that what is mirrored has a mirrored history.
         half = math.ceil(max(-low, high) / (STRIDE * dx))
-        whole: Any = STRIDE * np.arange(-half, half + 1)
+        whole = STRIDE * np.arange(-half, half + 1)
         return _check_count(whole)
     places = finite_list(positions, "positions", "m")
-    steps: Any = np.rint(places / dx).astype(int)
+    steps = np.rint(places / dx).astype(int)
     if (np.diff(steps) <= 0).any():
         at = int(np.argmax(np.diff(steps) <= 0))
         raise InputError(
@@ -209,7 +208,7 @@ def _steps(positions: Sequence[float] | Array | None, dx: float, low: float, hig
     return _check_count(steps)
 
 
-def _check_count(steps: Any) -> Any:
+def _check_count(steps: IntArray) -> IntArray:
     if len(steps) > MOST_POSITIONS:
         raise InputError(
             f"{len(steps)} positions are more than {MOST_POSITIONS}; give fewer positions, further apart"
@@ -218,7 +217,7 @@ def _check_count(steps: Any) -> Any:
 
 
 def _grid(
-    tire: Tire, rolling: Rolling, bodies: Pair, spacing: float | None, relief: Relief, steps: Array, dx: float
+    tire: Tire, rolling: Rolling, bodies: Pair, spacing: float | None, relief: Relief, steps: IntArray, dx: float
 ) -> Grid:
     """The largest of the grids that the contact needs on the plane and at the positions."""
     grids = [place(tire, rolling, bodies.both, spacing)[0]]

@@ -16,7 +16,7 @@ from treadload.contact.rolling_state import Rolling
 from treadload.contact.solvers.marching import State
 from treadload.contact.solvers.normal import NormalSolution
 from treadload.grid import Grid
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.pavement.relief import Relief
 from treadload.tire import Tire
 from treadload.variables import dataset
@@ -55,7 +55,7 @@ class Scene:
     grid: Grid
     influence: Influence
     gap: Array
-    steps: Array
+    steps: IntArray
 
     @property
     def road_x(self) -> Array:

@@ -10,7 +10,7 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 import xarray as xr
@@ -18,13 +18,13 @@ import xarray as xr
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.blocks import belt_alone
-from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
+from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.fields import loads, tractions
+from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.pitch_window import Window
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import DEFAULT_SPACING, place
-from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import State
 from treadload.errors import ConvergenceError, GeometryError, InputError, positive
 from treadload.grid import Grid
@@ -52,6 +52,10 @@ _BY_POSITION = (
 )  # fmt: skip
 _SCALARS = ("approach", "normal_load", "tractive_force", "lateral_force", "aligning_moment", "creepage_x")
 _FIELDS = ("pressure", "traction_x", "traction_y", "state")
+
+
+# Of the conditions of every step.
+_TOLERANCE = 1e-4
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,10 +168,8 @@ def solve_pitch(
     lateral: Sequence[LateralGrooves] = (),
     positions: int = POSITIONS,
     spacing: float | None = None,
-    tolerance: float = 1e-4,
     periodic: float = 0.01,
-    road_compliance: RoadCompliance = "half_space",
-    progress: Progress | None = None,
+    **numerics: Unpack[NumericsKeys],
 ) -> PitchPassage:
     """Roll a tread with blocks through one pitch, after as many as it takes to repeat itself.
 
@@ -175,14 +177,16 @@ def solve_pitch(
     scan or of a profile without lateral grooves; all blocks have free sides and are bonded to the belt. rolling:
     forces or creepages, as in `solve_transient`; friction that does not fall with slip. positions: of the wheel in a
     pitch, 4 to 200. spacing: of the cells, m, 3 mm if left out; along travel the nearest that divides the pitch.
-    tolerance: of the conditions of every step. periodic: by which pressure and shear may still change from a pitch to
-    the next, relative. road_compliance, progress: as in `solve_contact`.
-    Returns the fields at all positions. Raises InputError for a tire without blocks, sipes among them, GeometryError
-    if the contact is larger than the surface, ConvergenceError if pitches do not come to repeat each other.
-    Method: blocks by 3-D finite elements (`kernels.sections`), history by Kalker (1990), section 4.2.
+    periodic: by which pressure and shear may still change from a pitch to the next, relative. numerics: tolerance=,
+    of the conditions of every step, 1e-4 if left out; road_compliance=, progress= as in `solve_contact`. Returns the
+    fields at all positions. Raises InputError for a tire without blocks, sipes among them, GeometryError if the
+    contact is larger than the surface, ConvergenceError if pitches do not come to repeat each other. Method: blocks
+    by 3-D finite elements (`kernels.sections`), history by Kalker (1990), section 4.2.
     """
     began = time.perf_counter()
-    tell = progress or (lambda text: None)
+    keys: NumericsKeys = {"tolerance": _TOLERANCE, **numerics}
+    how = Numerics(**keys)
+    tolerance, road_compliance, tell = how.tolerance, how.road_compliance, how.tell
     _check(rolling, positions, tolerance, periodic)
     tread = lugged_tread(tire, tuple(lateral))
     inflated = tire.carcass

@@ -15,7 +15,7 @@ import math
 import time
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypedDict, Unpack
 
 import numpy as np
 import xarray as xr
@@ -135,17 +135,34 @@ class TextureContact(BaseResult, group="texture"):
         return tuple(lines)
 
 
+class TreadKeys(TypedDict, total=False):
+    """Of the tread under the texture: its thickness, m, the speed, m/s, and the wave, m, that rubber is read at."""
+
+    thickness: float | None
+    speed: float | None
+    wave: float | None
+
+
+def _tread(
+    rubber: Elastic | Prony,
+    mean_wave: float,
+    *,
+    thickness: float | None = None,
+    speed: float | None = None,
+    wave: float | None = None,
+) -> TreadRubber:
+    return TreadRubber.of(rubber, thickness, speed, wave_that_matters(mean_wave, wave))
+
+
 def solve_texture(
     texture: Texture,
     rubber: Elastic | Prony,
     pressures: Sequence[float] | Array | Contact,
     *,
-    thickness: float | None = None,
-    speed: float | None = None,
-    wave: float | None = None,
     reference: float | None = None,
     tolerance: float = 1e-4,
     progress: Callable[[str], None] | None = None,
+    **film: Unpack[TreadKeys],
 ) -> TextureContact:
     """Rubber pressed on a texture: how much of the area touches, under what pressure.
 
@@ -153,11 +170,11 @@ def solve_texture(
     other mirrored. A profile is taken as ridges across. rubber: of the tread, its own modulus, not that of a
     half-space that stands for the tire; a Prony is read at frequency speed over wave, |E*|. The road is rigid beside
     it. pressures: mean ones, Pa; or a Contact, whose pressures from a twentieth of the peak to the peak serve, and
-    whose real area is then given. thickness: of the tread on its belt, m; None: deep. wave: m, left out
-    `texture.mean_wave`. reference: the one of the pressures, Pa, whose fields are kept; left out, the mean of a
-    Contact or the middle of the list. tolerance: of the gap where it should be closed, relative to the approach.
-    No friction, no adhesion, no water. Raises InputError for drop-outs and pressures that are none,
-    ConvergenceError with the residual reached.
+    whose real area is then given. film: thickness= of the tread on its belt, m, None: deep; speed=, m/s; wave=, m,
+    left out `texture.mean_wave`. reference: the one of the pressures, Pa, whose fields are kept; left out, the mean
+    of a Contact or the middle of the list. tolerance: of the gap where it should be closed, relative to the approach.
+    No friction, no adhesion, no water. Raises InputError for drop-outs and pressures that are none, ConvergenceError
+    with the residual reached.
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)
@@ -173,7 +190,7 @@ def solve_texture(
         raise InputError(f"tolerance must lie in [1e-10, 1e-2], got {tolerance:g}; 1e-4 is the default")
     wheel = pressures if isinstance(pressures, Contact) else None
     steps, kept = _steps(pressures, reference)
-    tread = TreadRubber.of(rubber, thickness, speed, wave_that_matters(texture.mean_wave, wave))
+    tread = _tread(rubber, texture.mean_wave, **film)
     cells = Endless(heights.shape, texture.dx, texture.dy, mirrored=not texture.periodic)
     compliance = tread.compliance(cells.waves)
     stiffness = np.divide(1.0, compliance, out=np.zeros_like(compliance), where=compliance > 0)

@@ -9,9 +9,10 @@ from typing import Any, ClassVar
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.errors import InputError
+from treadload.kernels.largest import index_of_largest
 from treadload.materials import Orthotropic, Prony, TransverselyIsotropic
 from treadload.pavement import Pavement
 from treadload.rows import Place, Row, row
@@ -30,6 +31,7 @@ class Contact(BaseResult, group="contact"):
     stats: iterations, residuals, seconds. warnings: sentences for the user.
     """
 
+    columns: ClassVar[Columns] = Columns("Contact", "Contact solver")
     title: ClassVar[str] = "Contact"
     holds: ClassVar[Holds] = Holds(
         {
@@ -159,7 +161,6 @@ def _peak(field: xr.DataArray) -> Place | None:
     """Where a field is largest; None where nothing presses."""
     if not float(field.max()) > 0:
         return None
-    at = field.argmax(...)
-    assert isinstance(at, dict)
-    cell = field.isel(at)
+    plane = field.transpose(..., "y", "x")
+    cell = plane.isel(dict(zip(plane.dims, index_of_largest(plane.to_numpy()), strict=True)))
     return Place(float(cell["x"]), float(cell["y"]))

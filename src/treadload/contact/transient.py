@@ -10,7 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 import xarray as xr
@@ -21,12 +21,12 @@ from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, 
 from treadload.contact.bounds import check_ribs
 from treadload.contact.fields import Scene, tractions
 from treadload.contact.friction.laws import Interface
+from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solve import cell_across, check_border, place
-from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.tangential import Forces
@@ -95,25 +95,25 @@ def solve_transient(
     distances: Sequence[float] | Array,
     spacing: float | None = None,
     fields: bool = False,
-    tolerance: float = 1e-6,
-    road_compliance: RoadCompliance = "half_space",
-    progress: Progress | None = None,
+    **numerics: Unpack[NumericsKeys],
 ) -> TransientResult:
     """Rolling from rest: pressure, shear, stick and slip of a tire step by step along its way.
 
-    tire, spacing, road_compliance, progress: as in `solve_contact`; an elastic tire only.
+    tire, spacing: as in `solve_contact`; an elastic tire only. numerics: tolerance=, of every step, road_compliance=
+    and progress= likewise.
     rolling: one state for the whole way, or one for every step; the wheel stands under the load of the first before.
     distances: rolled since the start at the end of every step, m, ascending from zero; steps
     may be smaller or larger than a cell. A step of no distance shifts the wheel where it stands, by forces; a
     creepage does nothing there.
-    fields: keep pressure, tractions and state of every step. tolerance: as in `solve_contact`, for every step.
+    fields: keep pressure, tractions and state of every step.
     Returns forces, creepages, share of slip and work of friction over the distance, and the contact at the end.
     Raises InputError for distances that run backwards or forces beyond friction, GeometryError if the contact
     is larger than the surface, ConvergenceError with the residual reached.
     Method: Kalker (1990), section 4.2: step by step, with the influence coefficients at the travelled distance.
     """
     began = time.perf_counter()
-    tell = progress or (lambda text: None)
+    how = Numerics(**numerics)
+    tolerance, road_compliance, tell = how.tolerance, how.road_compliance, how.tell
     ends = _checked_distances(distances)
     wanted = _one_for_each(rolling, ends.size)
     if tire.ribs:
@@ -223,7 +223,7 @@ def _row(scene: Scene, state: State, rolling: Rolling, distance: float, fields: 
     return row
 
 
-def _dataset(grid: Grid, rows: Sequence[dict[str, Any]]) -> xr.Dataset:
+def _dataset(grid: Grid, rows: Sequence[dict[str, object]]) -> xr.Dataset:
     names = {name: np.array([row[name] for row in rows]) for name in rows[0]}
     dims = {1: ("step",), 3: ("step", "y", "x")}
     variables = {name: (dims[values.ndim], values) for name, values in names.items()}

@@ -11,18 +11,17 @@ import math
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Unpack
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import BaseResult, Holds
-from treadload.contact.bodies.choose import RoadCompliance
 from treadload.contact.fields import Scene
+from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solvers.coupling import Progress
 from treadload.contact.solvers.marching import State
 from treadload.contact.solvers.sliding import sliding_pole, sliding_torque
 from treadload.contact.transient import run, set_scene, stage_of, standing
@@ -103,13 +102,12 @@ def turn_on_the_spot(
     angles: Sequence[float] | Array,
     pivot: tuple[float, float] | None = None,
     spacing: float | None = None,
-    tolerance: float = 1e-6,
-    road_compliance: RoadCompliance = "half_space",
-    progress: Progress | None = None,
+    **numerics: Unpack[NumericsKeys],
 ) -> TurnResult:
     """Torque that turns a standing wheel about z, and what the tread does to the road meanwhile.
 
-    tire, spacing, tolerance, road_compliance, progress: as in `solve_contact`; an elastic tire only.
+    tire, spacing: as in `solve_contact`; an elastic tire only. numerics: tolerance=, road_compliance= and
+    progress= likewise.
     rolling: load, friction, and forces along the road that act all the while; no creepages, no spin.
     angles: of the wheel at the end of every increment, rad, positive to the right; they may go to and fro.
     pivot: (x, y) that is held, m, such as where the kingpin meets the road; None: the wheel finds its centre,
@@ -119,7 +117,8 @@ def turn_on_the_spot(
     Method: Kalker (1990), section 1.5, without rolling; limits: Reissner & Sagoci (1944), Lubkin (1951).
     """
     began = time.perf_counter()
-    tell = progress or (lambda text: None)
+    how = Numerics(**numerics)
+    tolerance, road_compliance, tell = how.tolerance, how.road_compliance, how.tell
     if rolling.creepage_x is not None or rolling.creepage_y is not None or rolling.spin:
         raise InputError("a wheel that turns on the spot does not roll: leave creepages and spin out, give angles")
     if pivot is not None and any(rolling.forces):

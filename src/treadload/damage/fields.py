@@ -14,6 +14,7 @@ from treadload.damage.cracks import gridded
 from treadload.damage.quantity import ANYWHERE, STRESS, Quantity, part
 from treadload.errors import InputError
 from treadload.kernels import tensors
+from treadload.kernels.largest import index_of_largest
 from treadload.registry import QUANTITIES
 
 # Largest depth of the shear under the edge of a tire, m.
@@ -72,7 +73,7 @@ def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict
         values = values.where(values["depth"] <= deepest, drop=True)
     if not values.size or bool(values.isnull().all()):
         raise InputError(f"{name} has no value at depths up to {deepest} m; solve the response there")
-    at = np.unravel_index(int(np.nanargmax(values.to_numpy())), values.shape)
+    at = index_of_largest(values.to_numpy(), horizontal=len({"x", "y"} & set(values.dims)))
     place = {str(dim): float(values[dim][int(number)]) for dim, number in zip(values.dims, at, strict=True)}
     return {"value": float(values.to_numpy()[at]), **place}
 

@@ -20,6 +20,7 @@ from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.fatigue import warnings_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import FRICTIONLESS, BondLaw, Pavement
 from treadload.rows import Place, Row, row
@@ -234,10 +235,8 @@ def assess_bonds(
 
 
 def _peak(used: Array) -> tuple[int, int]:
-    if np.isnan(used).all():
-        return 0, 0
-    row, column = np.unravel_index(int(np.nanargmax(used)), used.shape)
-    return int(row), int(column)
+    row, column = index_of_largest(used)
+    return row, column
 
 
 def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:

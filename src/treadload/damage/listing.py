@@ -10,6 +10,7 @@ from treadload.damage.laws.fatigue import USERS
 from treadload.damage.laws.of_layer import OnLayer
 from treadload.damage.quantity import UNCALIBRATED, Quantity
 from treadload.errors import InputError, nearest
+from treadload.kernels.arrays import Array
 from treadload.read import made_by, parameters
 from treadload.registry import CRITERIA, QUANTITIES, Registry
 from treadload.units import Unit
@@ -102,7 +103,7 @@ def _numbers(registry: Registry, name: str) -> str:
     return ", ".join(texts)
 
 
-def _marks(hint: object) -> list[Any]:
+def _marks(hint: object) -> list[Array]:
     """All that stands in an annotation, at any depth."""
     return [mark for member in get_args(hint) for mark in (member, *_marks(member))]
 

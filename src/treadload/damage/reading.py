@@ -20,6 +20,7 @@ from treadload.damage.quantity import STRAIN, STRESS, Quantity, cut, part
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
 from treadload.response.loads import PlacedLoad
@@ -91,9 +92,9 @@ class Field:
 
     @cached_property
     def worst(self) -> tuple[int, int, int]:
-        """Index of the largest reading."""
-        at = np.unravel_index(int(np.nanargmax(self.value)), self.value.shape)
-        return int(at[0]), int(at[1]), int(at[2])
+        """Index of the largest reading, see `index_of_largest`."""
+        row, j, i = index_of_largest(self.value)
+        return row, j, i
 
 
 def check_law(line: PowerLaw) -> None:
@@ -189,7 +190,7 @@ def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
     fields = [near for at in _rivals(field) if (near := _nearer(means, field, at, rough=rough)) is not None]
     if not fields:
         return None
-    best = max(fields, key=_largest)
+    best = _worst_of(fields)
     finer = {
         name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
     }
@@ -197,6 +198,19 @@ def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
     finest = replace(best, data=read(means, best.quantity, best.data["depth"].to_numpy(), rough=rough, **finer))
     best = max(best, finest, key=_largest)
     return max(best, _deeper(means, field, best, rough=rough), key=_largest)
+
+
+def _worst_of(fields: Sequence[Field]) -> Field:
+    """The field with the largest reading; of those that are equally large, as under the two shoulders of a symmetric
+    tire, the one whose worst place has the largest y, then the largest x, see `index_of_largest`.
+    """
+    least = (1 - _ROUGH) * max(map(_largest, fields))
+
+    def place(field: Field) -> tuple[float, float]:
+        _, j, i = field.worst
+        return float(field.data["y"][j]), float(field.data["x"][i])
+
+    return max((field for field in fields if _largest(field) >= least), key=place)
 
 
 def _largest(field: Field) -> float:

@@ -11,10 +11,14 @@ from treadload.response.loads import GridLoad
 
 # Below this depth, m, free sides changed the strain by less than 5 %.
 SHALLOW = 0.02
-# Load repetitions at a slope of -0.2 without free sides over those with them, by the largest in-plane strain at the
-# surface under a free rolling 315/80R22.5: asphalt of 5.4 GPa, and a French structure at 40 °C. The comparison is in
-# docs/explanation/ribs.md.
-FEWER = (9, 460)
+# Largest in-plane strain at the surface under a free rolling 315/80R22.5 with filled grooves and with free ribs,
+# microstrain, on asphalt of 5.4 GPa and on a French structure at 40 °C, and how many times fewer load repetitions
+# that allows at a slope of -0.2, with as many digits as cells allow. By how much at most, microstrain, the largest
+# strain at places with a tensile principal stress fell, at 10 to 40 °C and driven with 10 kN as well.
+# `examples/ribs/run.py` prints them, docs/explanation/ribs_evidence.md shows them over temperature.
+STRAINS = ((27, 45), (33, 121))
+FEWER = (10, 700)
+EVALUATED = 5
 _WHO = {
     "filled": "the tread has circumferential grooves, and this tire has them filled, as a layer or a half-space",
     "unknown": "whether the tread has circumferential ribs is not known, and this tire has none with free sides",
@@ -28,10 +32,16 @@ def sides_in_words(sides: Iterable[str]) -> list[str]:
     """
     for state, who in _WHO.items():
         if state in set(sides):
+            (stiff, free_stiff), (hot, free_hot) = STRAINS
             return [
-                f"{who}: ribs with free sides shear the surface outward. With them the largest in-plane strain at "
-                f"the surface under a free rolling tire allowed {FEWER[0]} to {FEWER[1]} times fewer load "
-                'repetitions, by road and temperature; give the tire a belt and tread = "ribs"'
+                f"{who}: ribs with free sides shear the surface outward. Under a freely rolling 315/80R22.5 they "
+                "raised the largest in-plane strain at the surface, compared with a layer on the same belt, from "
+                f"{stiff} to {free_stiff} microstrain on asphalt of 5.4 GPa and from {hot} to {free_hot} on a French "
+                f"structure at 40 °C: {FEWER[0]} to {FEWER[1]} times fewer load repetitions at a slope of -0.2, "
+                "without a bound where the layer compresses the surface (25 °C). That strain lies where no principal "
+                "stress is tensile. Where one is, the strain, which an assessment of tensile strain evaluates, fell "
+                f"by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; give the tire a belt and "
+                'tread = "ribs"'
             ]
     return []
 

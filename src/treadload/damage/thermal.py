@@ -21,6 +21,7 @@ from treadload.units import PerDegree
 # Of length, 1/K: what tests of mixes give lies between 2 and 3.5e-5.
 EXPANSION = 2.5e-5
 _LARGEST = 1e-3
+_REMEDY = 'give `thermal` the relaxation of a published material with a shift, as relaxation = "ViscoRoute"'
 DAYS = (31, 28, 31, 30, 31, 30, 31, 31, 30, 31, 30, 31)
 """Days of the months; a life counts 365 of them a year."""
 
@@ -60,6 +61,19 @@ class Thermal:
     def __hash__(self) -> int:
         return hash((self.expansion, tuple(sorted(self.expansions.items())), self.relaxation))
 
+    def unknown(self, material: object) -> str:
+        """Why nobody can say how a bituminous material relaxes, in words; empty where `of` says it."""
+        if isinstance(material, Thermorheological) or self.relaxation is not None:
+            return ""
+        if not isinstance(material, Mix):
+            return f"{material} does not say how it relaxes; {_REMEDY}"
+        if len(material.frequencies) < 2:
+            return (
+                f"mix {material.name!r} is tabulated at {material.frequencies[0]:g} Hz only, which does not say "
+                f"how it relaxes; {_REMEDY}"
+            )
+        return ""
+
     def of(self, material: object) -> tuple[Thermorheological, float, float]:
         """How a bituminous material relaxes, its expansion, 1/K, and the misfit of its model to its table.
 
@@ -75,7 +89,7 @@ class Thermal:
         if isinstance(material, Mix):
             fitted = relaxation_of(material)
             return fitted.material, expansion, fitted.misfit
-        raise InputError(f"{material} does not say how it relaxes; name a material with a shift as relaxation")
+        raise InputError(self.unknown(material))
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,6 +10,7 @@ from treadload.damage.cracks import gridded
 from treadload.damage.quantity import STRAIN, STRESS, Reading, in_tension
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
 from treadload.response import Response
 from treadload.response.fields import direction_in_words, layer_in_words
@@ -32,8 +33,7 @@ def bright_spot(response: Source, strain_of: Reading, evaluated: float, mean_ove
     if "mean_over" in data.attrs:
         return []
     strain = data.variables["principal_strain_1"].transpose("depth", "y", "x").to_numpy()
-    strain = np.where(np.isnan(strain), -np.inf, strain)
-    row, j, i = (int(k) for k in np.unravel_index(int(strain.argmax()), strain.shape))
+    row, j, i = index_of_largest(strain)
     most = float(strain[row, j, i])
     if not most > _NOTABLE * max(evaluated, 0.0) or most < _STRAIN:
         return []

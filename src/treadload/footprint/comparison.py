@@ -166,7 +166,7 @@ def compare(
     return FootprintComparison(data, print_, pose, {"candidates": dict(pose.candidates)}, tuple(warnings))
 
 
-def _load(result: Any) -> GridLoad:
+def _load(result: object) -> GridLoad:
     contact = getattr(result, "contact", None)
     load_of = result if contact is None else contact
     load = load_of.load if isinstance(load_of, Footprint) else load_of
@@ -182,7 +182,7 @@ def _load(result: Any) -> GridLoad:
     return load
 
 
-def _footprint(footprint: Any) -> Footprint:
+def _footprint(footprint: object) -> Footprint:
     if isinstance(footprint, str | os.PathLike):
         footprint = read_footprint(footprint)
     if isinstance(footprint, xr.Dataset | HasDataset) and not isinstance(footprint, Footprint):

@@ -302,7 +302,7 @@ def unknowns(wanted: Iterable[str | Unknown]) -> tuple[Unknown, ...]:
     return sought
 
 
-def _recorded(name: str, recorded: Any, folder: str | os.PathLike[str]) -> Footprint:
+def _recorded(name: str, recorded: object, folder: str | os.PathLike[str]) -> Footprint:
     """A footprint of a row, read where it is a path or a table. name: of its key. Raises InputError."""
     if isinstance(recorded, str | os.PathLike):
         recorded = {"file": recorded}

@@ -237,7 +237,7 @@ def _with_units(
     return frames if frames.law is not None else replace(frames, law=(1.0, 1.0))
 
 
-def _with_spacing(path: Path, frames: Frames, spacing: Any) -> Frames:
+def _with_spacing(path: Path, frames: Frames, spacing: object) -> Frames:
     if frames.row_spacing is not None and frames.column_spacing is not None:
         return frames
     if spacing is None:

@@ -19,6 +19,8 @@ import numpy as np
 from scipy import fft as _scipy
 from scipy.fft import fftfreq, next_fast_len, rfftfreq
 
+from treadload.kernels.arrays import Numbers
+
 __all__ = [
     "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "mirrored_waves", "namespace",
     "next_fast_len", "on", "portions", "rfft", "rfft2", "rfftfreq", "sine2", "sines", "to_device", "to_host",
@@ -130,7 +132,7 @@ def cosine2(quadrant: object) -> Any:
     return _scipy.dctn(quadrant, type=1)
 
 
-def sine2(quadrant: Any) -> Any:
+def sine2(quadrant: Numbers) -> Numbers:
     """The transform (ny, nx) of what is odd both ways about both ends of a quadrant (ny, nx), of which it is one."""
     result = np.zeros_like(quadrant)
     if min(quadrant.shape) > 2:
@@ -148,7 +150,7 @@ def cosines(half: object, n: int, axis: int = -1) -> Any:
     return _scipy.dct(half, type=1, n=n + 1, axis=axis)
 
 
-def sines(half: Any, n: int, axis: int = -1) -> Any:
+def sines(half: Numbers, n: int, axis: int = -1) -> Numbers:
     """As `cosines`, of what is odd, times i: the number at 0 is not read."""
     values = np.moveaxis(half, axis, -1)
     result = np.zeros((*values.shape[:-1], n + 1), half.dtype)
@@ -157,7 +159,7 @@ def sines(half: Any, n: int, axis: int = -1) -> Any:
     return np.moveaxis(result, -1, axis)
 
 
-def cosines_between(half: Any, n: int, axis: int = -1) -> Any:
+def cosines_between(half: Numbers, n: int, axis: int = -1) -> Numbers:
     """The transform (n + 1 numbers) of what is even about 0, known at 1/2, 3/2, ..., zero from n on, period 2 n."""
     values = np.moveaxis(_scipy.dct(half, type=2, n=n, axis=axis), axis, -1)
     result = np.zeros((*values.shape[:-1], n + 1), half.dtype)
@@ -165,7 +167,7 @@ def cosines_between(half: Any, n: int, axis: int = -1) -> Any:
     return np.moveaxis(result, -1, axis)
 
 
-def sines_between(half: Any, n: int, axis: int = -1) -> Any:
+def sines_between(half: Numbers, n: int, axis: int = -1) -> Numbers:
     """As `cosines_between`, of what is odd, times i."""
     values = np.moveaxis(_scipy.dst(half, type=2, n=n, axis=axis), axis, -1)
     result = np.zeros((*values.shape[:-1], n + 1), half.dtype)

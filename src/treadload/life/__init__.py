@@ -6,6 +6,7 @@ from treadload.life.equivalents import Equivalents, life_equivalents
 from treadload.life.growth import grow_cracks
 from treadload.life.passages import Passages, solve_passages
 from treadload.life.reliability import MonteCarlo, Reliability, life_reliability
+from treadload.life.remedy import Remedies, RemedySteps, remedies
 from treadload.life.sensitivity import Sensitivity, life_sensitivity
 from treadload.life.shakedown import shakedown_map
 from treadload.life.solve import solve_life
@@ -18,6 +19,8 @@ __all__ = [
     "MonteCarlo",
     "Passages",
     "Reliability",
+    "Remedies",
+    "RemedySteps",
     "Sensitivity",
     "ThicknessDesign",
     "compare_bonds",
@@ -26,6 +29,7 @@ __all__ = [
     "life_equivalents",
     "life_reliability",
     "life_sensitivity",
+    "remedies",
     "shakedown_map",
     "solve_interfaces",
     "solve_life",

@@ -16,8 +16,10 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.criterion import interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
-from treadload.damage.miner import Life, passes_in_two_phases
+from treadload.damage.life import Life
+from treadload.damage.miner import passes_in_two_phases
 from treadload.errors import InputError
+from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.solve import solve_life
@@ -170,7 +172,7 @@ def compare_bonds(
     parts = float(passes.sel(criterion=first.name))
     number = first.number(road)
     after = live(delaminate(road, number, bond))
-    rates = [life.dataset["damage_per_year"].to_numpy() for life in (before, after)]
+    rates = _on_one_width([life.dataset["damage_per_year"] for life in (before, after)])
     # No traffic, no damage: any number of passes does.
     rates = [rate / (traffic.passes_per_year or 1.0) for rate in rates]
     in_turn = passes_in_two_phases(rates[0], rates[1], parts).min(axis=-1)
@@ -193,3 +195,11 @@ def compare_bonds(
         parts=first.name,
     )
     return BondComparison(dataset, before, after, number, bond, first.name)
+
+
+def _on_one_width(rates: Sequence[xr.DataArray]) -> list[Array]:
+    """Damage (criterion, y) of lives whose basins are not as wide, on the lattice of the widest."""
+    y = max((rate["y"].to_numpy() for rate in rates), key=len)
+    return [
+        np.stack([np.interp(y, rate["y"], row, left=0.0, right=0.0) for row in rate.to_numpy()]) for rate in rates
+    ]

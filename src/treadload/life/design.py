@@ -63,5 +63,8 @@ class Design:
         """The design with another thickness, m, of a layer, from 0 at the surface; contacts are shared."""
         layers = list(self.road.layers)
         layers[number] = replace(layers[number], thickness=thickness)
-        road = Pavement(layers, rigid_base=self.road.rigid_base)
+        return self.on_road(Pavement(layers, rigid_base=self.road.rigid_base))
+
+    def on_road(self, road: Pavement) -> Design:
+        """The design with another road, and the criteria that it has there; contacts are shared."""
         return replace(self, road=road, criteria=self.criteria_of(road) if self.criteria_of else self.criteria)

@@ -14,20 +14,21 @@ from scipy.optimize import brentq
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
+from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import GROUP_FACTORS, StandardAxle
-from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.traffic import AxleClass
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Counter
 from treadload.life.design import Design
-from treadload.life.passage import Passing, solve_passings
+from treadload.life.passage import Passing, solve_passings, turns_of
 from treadload.life.seasons import warmed
 from treadload.life.threads import pool_of
 from treadload.life.wheels import Wheels
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
+from treadload.response.basin import basin_reach
 from treadload.rows import Row, row
 from treadload.variables import Display, display_of
 
@@ -133,9 +134,9 @@ def life_equivalents(design: Design, life: Life, *, workers: int | None = None) 
     standard = np.full(shares.shape[:2], np.nan)
     for k, season in enumerate(seasons):
         laws = [row[season] for row in life.class_laws[k]]
-        alone = _harm(life.laws[k][season], harm[season][k, :1])
+        alone = float(harm_of(life.laws[k][season], harm[season][k]).max())
         if alone > 0:
-            standard[k] = [_harm(law, readings[k, n, season]) / alone for n, law in enumerate(laws)]
+            standard[k] = [float(harm_of(law, readings[k, n, season]).max()) / alone for n, law in enumerate(laws)]
     loads = [_axle_load(row) for row in classes]
     axles = np.array([len({x for x, _ in row.wheels}) for row in classes])
     factors = np.array([GROUP_FACTORS["bituminous"].get(int(count), math.nan) for count in axles])
@@ -174,13 +175,16 @@ def life_equivalents(design: Design, life: Life, *, workers: int | None = None) 
 
 
 def _of_the_axle(road: Pavement, life: Life, seasons: list[int], workers: int | None) -> dict[int, Array]:
-    """What the criteria read (criterion, 3, y) under the standard axle, by season."""
+    """What the criteria read (criterion, turn, y) under the standard axle, by season."""
     y = life.readings["y"].to_numpy()
     speed = next((row.speed for row in life.traffic.classes if row.speed is not None), None)
     wheels = _dual(life.traffic.standard_axle, y, speed)
-    tasks = [Passing(wheels, warmed(road, life.criteria, life.climate.seasons[season]), y, 1) for season in seasons]
+    warm = [warmed(road, life.criteria, life.climate.seasons[season]) for season in seasons]
+    turns, reach = turns_of([wheels]), basin_reach(member.road for member in warm)
+    tasks = [Passing(wheels, member, y, turns, reach) for member in warm]
     with pool_of(workers) as pool:
-        return dict(zip(seasons, solve_passings(tasks, pool, Counter(len(tasks), None)), strict=True))
+        solved = solve_passings(tasks, pool, Counter(len(tasks), None))
+    return {season: read[:, :turns] for season, read in zip(seasons, solved, strict=True)}
 
 
 def _dual(axle: StandardAxle, y: Array, speed: float | None) -> Wheels:
@@ -199,12 +203,6 @@ def _dual(axle: StandardAxle, y: Array, speed: float | None) -> Wheels:
         part = inside.mean(axis=(1, 3))
         loads.append(GridLoad(grid, part * axle.load / 4 / (part.sum() * cell**2)))
     return Wheels(tuple(loads), loads[0].grid.x[None], speed, "standard axle", 0.0)
-
-
-def _harm(law: FatigueLaw, turns: Array) -> float:
-    """Damage of one passage at its worst place, from peaks and valleys (turn, y)."""
-    sign = np.where(np.arange(len(turns)) % 2, -1.0, 1.0)[:, None]
-    return float(max((sign / np.asarray(law.allowable_passes(turns))).sum(axis=0).max(), 0.0))
 
 
 def _axle_load(row: AxleClass) -> float:

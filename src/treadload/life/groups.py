@@ -6,8 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import GROUP_FACTORS
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Counter
 from treadload.life.passage import Passing, solve_passings
@@ -34,13 +35,13 @@ def group_factors(road: Pavement, life: Life, passages: Passages, workers: int |
     axles = np.array([len(wheel.x) for wheel in passages.wheels])
     several = [int(number) for number in np.flatnonzero(axles > 1)]
     seasons = [int(shares[:, number].sum(axis=0).argmax()) for number in several]
-    classes = life.traffic.classes
+    classes, turns = life.traffic.classes, readings.shape[3]
     warm = {
         (number, season): warmed(road, life.criteria, life.climate.seasons[season], classes[number])
         for number, season in zip(several, seasons, strict=True)
     }
     tasks = [
-        Passing(_one_axle(passages.wheels[number]), warm[number, season], y, 1)
+        Passing(_one_axle(passages.wheels[number]), warm[number, season], y, turns, passages.reach)
         for number, season in zip(several, seasons, strict=True)
     ]
     threads = how_many(workers)
@@ -49,7 +50,7 @@ def group_factors(road: Pavement, life: Life, passages: Passages, workers: int |
     for number, season, alone in zip(several, seasons, solved, strict=True):
         group = readings[:, number, season]
         for k, law in enumerate(row[number][season] for row in life.class_laws):
-            together, single = (_harm(law.allowable_passes(values)).max() for values in (group[k], alone[k, :1]))
+            together, single = (harm_of(law, values).max() for values in (group[k], alone[k, :turns]))
             if single > 0:
                 factors[k, number] = together / (axles[number] * single)
     return factors, axles
@@ -79,10 +80,3 @@ def _one_axle(wheels: Wheels) -> Wheels:
     half = 0.5 * (first[1] - first[0])
     loads = tuple(load for load in wheels.loads if abs(load.grid.x[0] - first[0]) < half)
     return replace(wheels, loads=loads, x=wheels.x[:1])
-
-
-def _harm(passes: Array) -> Array:
-    """Σ 1/N(peak) - Σ 1/N(valley) (ny,) of the passes (turn, ny) that readings allow."""
-    sign = np.where(np.arange(len(passes)) % 2, -1.0, 1.0)[:, None]
-    harm: Array = np.maximum((sign / np.asarray(passes)).sum(axis=0), 0.0)
-    return harm

@@ -3,29 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import xarray as xr
 from scipy.interpolate import CubicSpline, make_interp_spline
 
-from treadload.damage.criterion import Criterion, Side
-from treadload.kernels.arrays import Array
+from treadload.damage.criterion import Criterion
+from treadload.damage.cycles import as_turns, rainflow, turning_points
+from treadload.kernels.arrays import Array, IntArray
+from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
-from treadload.life.peaks import Strips, over_strips, peaks_and_valleys, readings
+from treadload.life.lines import Lines, Plane, along, rows_of
+from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
-from treadload.life.wheels import MARGIN, Wheels
+from treadload.life.wheels import Wheels
 from treadload.response import solve_response
+from treadload.response.basin import SHORTEST, basin_tensors
 from treadload.response.several import Question, tensors_of_many
 
-# Near the surface points stand on every cell up to this far beside a wheel, m.
-_BESIDE = 0.06
-# Below this depth, m, points a sixth of the depth apart, at most the last, m, follow the field: 1 % of the shear
-# at 60 mm.
-_DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
+# Cycles of a passage that are kept at least, and for each axle: the road hogs ahead of and behind each.
+_FEWEST_CYCLES, _CYCLES_PER_AXLE = 3, 2
+# Rows a smooth field is read on end where it has faded to this part of its largest, or it is solved further.
+_FAINT = 0.5
+# What a result holds behind the turns: angle and dip of the crack, the depth, and whether it lies on the border.
+ANGLE, DIP, DEPTH, BORDER, BEHIND = range(5)
 _DIMS = ("depth", "y", "x")
 # Names of variables, their dimensions and their values; a criterion, its fields and the result of its cracks.
 Fields = Mapping[str, tuple[tuple[str, ...], Array]]
@@ -38,12 +43,16 @@ _TOGETHER = 1_500_000
 
 @dataclass(frozen=True, eq=False)
 class Passing:
-    """A class that rolls over a road in a season, read at y, m, evenly spaced; turns: peaks and valleys to keep."""
+    """A class that rolls over a road in a season, read at y, m, evenly spaced.
+
+    turns: peaks and valleys to keep, see `turns_of`. reach: how far ahead and behind its basin is followed, m.
+    """
 
     wheels: Wheels
     warm: Warm
     y: Array
     turns: int
+    reach: float = SHORTEST
 
     def depth(self, number: int) -> float:
         """At which one of its criteria reads, m."""
@@ -58,10 +67,19 @@ class Passing:
         """Of which one of its criteria reads the largest, m."""
         return self.warm.criteria[number].depths(self.warm.road)
 
+    def plane(self, number: int) -> Plane:
+        """Where one of its criteria reads."""
+        return Plane.of(self.warm.criteria[number], self.depth(number), self.wheels.cell)
+
     @property
     def speed(self) -> float | None:
         """At which the wheels roll, m/s, where the road minds."""
         return self.wheels.speed if self.warm.road.is_viscoelastic else None
+
+
+def turns_of(wheels: Iterable[Wheels]) -> int:
+    """Peaks and valleys to keep of passages of some wheels."""
+    return 2 * max(_FEWEST_CYCLES, _CYCLES_PER_AXLE * max(len(member.x) for member in wheels)) - 1
 
 
 def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter, threads: int = 1) -> list[Array]:
@@ -88,14 +106,12 @@ def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
     alike: dict[Any, list[int]] = {}
     for number, task in enumerate(tasks):
         grids = tuple(load.grid for load in task.wheels.loads)
-        alike.setdefault((grids, task.speed, float(task.y[0]), len(task.y)), []).append(number)
+        alike.setdefault((grids, task.speed, float(task.y[0]), len(task.y), task.reach), []).append(number)
     parts: list[list[int]] = []
     for members in alike.values():
         first = tasks[members[0]]
-        strides = {_Plane.of(first, k).stride for k in range(len(first.warm.criteria))}
-        points = max(
-            len(_along(first.wheels, stride)) * len(_rows(first.wheels, first.y, stride)) for stride in strides
-        )
+        planes = {first.plane(k) for k in range(len(first.warm.criteria))}
+        points = max(len(along(first.wheels, plane)) * len(rows_of(first.wheels, first.y, plane)) for plane in planes)
         roads = [id(tasks[number].warm.road) for number in members]
         members.sort(key=lambda number: roads.index(id(tasks[number].warm.road)))
         size = max(1, min(_TOGETHER // points, math.ceil(len(members) * len(alike) / threads)))
@@ -104,60 +120,76 @@ def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
 
 
 def passages(tasks: Sequence[Passing]) -> list[Array]:
-    """(criterion, turns + 3, y): peaks and valleys, see `Passages`, then angle and dip of the crack, and the depth.
+    """(criterion, turns + BEHIND, y): peaks and valleys, see `Passages`, then what is behind them.
 
     For each of some tasks that stand on the same cells at the same speed, see `batches`.
     """
-    y, wheels = tasks[0].y, tasks[0].wheels
-    results: list[Array] = [np.empty((len(task.warm.criteria), task.turns + 3, len(y))) for task in tasks]
-    planes: dict[_Plane, dict[int, list[int]]] = {}
+    results: list[Array] = [
+        np.empty((len(task.warm.criteria), task.turns + BEHIND, len(task.y)), np.float32) for task in tasks
+    ]
+    planes: dict[Plane, dict[int, list[int]]] = {}
     for number, task in enumerate(tasks):
         for k in range(len(task.warm.criteria)):
-            planes.setdefault(_Plane.of(task, k), {}).setdefault(number, []).append(k)
+            planes.setdefault(task.plane(k), {}).setdefault(number, []).append(k)
     for plane, members in planes.items():
-        x, rows = _along(wheels, plane.stride), _rows(wheels, y, plane.stride)
-        solved = _solved([(tasks[number], numbers) for number, numbers in members.items()], plane, x, y[rows])
-        lines = _Lines.of(plane, wheels, rows, y)
-        worst = []
-        for (number, numbers), data in zip(members.items(), solved, strict=True):
-            levels = list(data["depth"].to_numpy())
-            for k in numbers:
-                own_rows = [levels.index(depth) for depth in tasks[number].depths(k)]
-                at = data if own_rows == list(range(len(levels))) else data.isel(depth=own_rows)
-                criterion, result = tasks[number].criterion(k), results[number][k]
-                worst.append((criterion, _read(result, criterion, at, tasks[number], plane, lines), result))
-        _add_cracks(worst, lines.nearest, tasks[0].turns)
+        again = _pass(tasks, plane, members, results)
+        # What is largest at the edge of what was solved is solved further.
+        if again:
+            _pass(tasks, replace(plane, margin=tasks[0].reach), again, results)
     return results
 
 
-@dataclass(frozen=True)
-class _Plane:
-    """What is read together.
+def _pass(
+    tasks: Sequence[Passing], plane: Plane, members: Mapping[int, list[int]], results: Sequence[Array]
+) -> dict[int, list[int]]:
+    """Into results what criteria, by number of each task, read in a plane; those whose largest is on its border."""
+    wheels, y, turns = tasks[0].wheels, tasks[0].y, tasks[0].turns
+    x, rows = along(wheels, plane), rows_of(wheels, y, plane)
+    basin = Basin.of(wheels, y, y[rows], tasks[0].reach) if plane.wide else None
+    lines = Lines.of(plane, wheels, rows, y, basin)
+    several = [(tasks[number], numbers) for number, numbers in members.items()]
+    far: Sequence[xr.Dataset | None] = [None] * len(several)
+    if basin is not None:
+        far = _solved(several, plane, basin.x, basin.y, basin=True)
+    worst: list[Worst] = []
+    again: dict[int, list[int]] = {}
+    for (number, numbers), data, beyond in zip(
+        members.items(), _solved(several, plane, x, y[rows]), far, strict=True
+    ):
+        task, levels = tasks[number], list(data["depth"].to_numpy())
+        around = None if basin is None or beyond is None else basin.lines(beyond)
+        for k in numbers:
+            own_rows = [levels.index(depth) for depth in task.depths(k)]
+            whole = own_rows == list(range(len(levels)))
+            at = data if whole else data.isel(depth=own_rows)
+            criterion, result = task.criterion(k), results[number][k]
+            if basin is None or around is None:
+                fields, ends = _read(result, criterion, at, task, plane, lines)
+                if ends and plane.margin < task.reach:
+                    again.setdefault(number, []).append(k)
+            else:
+                far, outside = (part if whole else part.isel(depth=own_rows) for part in around)
+                fields = _read_both(result, criterion, (at, outside, far), task, lines, basin)
+            worst.append((criterion, fields, result))
+    _add_cracks(worst, lines.nearest, turns)
+    return again
 
-    stride: cells from one point to the next, 0 near the surface. side: of interfaces. mean_over: m, None for points.
-    """
 
-    stride: int
-    side: Side
-    mean_over: float | None
-
-    @classmethod
-    def of(cls, task: Passing, number: int) -> _Plane:
-        """Where one of the criteria of a task reads."""
-        depth, criterion = task.depth(number), task.warm.criteria[number]
-        stride = _stride(depth, task.wheels.cell)
-        # Deep down points and means are alike.
-        return cls(stride, criterion.side if depth > 0 else "above", None if stride else criterion.mean_over)
-
-
-def _solved(tasks: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array, y: Array) -> list[xr.Dataset]:
-    """What criteria, by number, read over (depth, y, x), for each task."""
+def _solved(
+    tasks: Sequence[tuple[Passing, list[int]]], plane: Plane, x: Array, y: Array, *, basin: bool = False
+) -> list[xr.Dataset]:
+    """What criteria, by number, read over (depth, y, x), for each task. basin: True of that around the wheels."""
     needs = {name for task, numbers in tasks for k in numbers for name in task.warm.criteria[k].needs}
     at: dict[str, Any] = {"speed": tasks[0][0].speed, "side": plane.side, "mean_over": plane.mean_over}
     depths = [np.array(sorted({depth for k in numbers for depth in task.depths(k)})) for task, numbers in tasks]
     places = [(task.wheels, task.warm.road, levels) for (task, _), levels in zip(tasks, depths, strict=True)]
-    tensors = tensors_of_many(
-        [Question(wheels.joined, road, levels) for wheels, road, levels in places], x, y, needs=needs, **at
+    solve = basin_tensors if basin else tensors_of_many
+    tensors = solve(
+        [Question(wheels.coarse if basin else wheels.joined, road, levels) for wheels, road, levels in places],
+        x,
+        y,
+        needs=needs,
+        **at,
     )
     if tensors is not None:
         return tensors
@@ -166,52 +198,144 @@ def _solved(tasks: Sequence[tuple[Passing, list[int]]], plane: _Plane, x: Array,
     ]
 
 
-@dataclass(frozen=True, eq=False)
-class _Lines:
-    """Across travel: rows that are solved, of y, m; those nearest to each y; and strips, where readings take them."""
-
-    rows: Any
-    y: Array
-    nearest: Any
-    strips: Strips | None
-
-    @classmethod
-    def of(cls, plane: _Plane, wheels: Wheels, rows: Any, y: Array) -> _Lines:
-        """With strips where means near the surface are read."""
-        fine = plane.mean_over is not None and wheels.cell <= plane.mean_over and not plane.stride
-        nearest = np.abs(y[:, None] - y[None, rows]).argmin(axis=1)
-        return cls(rows, y, nearest, Strips.of(y[rows], y) if fine else None)
+def _power(criterion: Criterion) -> float:
+    """By which the damage of a criterion grows with its reading."""
+    return 1 / abs(float(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL)))
 
 
 def _read(
-    result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: _Plane, lines: _Lines
-) -> Fields:
-    """Into (turns + 3, y) what a criterion reads of a plane (depth, rows, x); the fields where it reads most."""
-    turns = task.turns
-    smooth = plane.stride > 0
+    result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: Plane, lines: Lines
+) -> tuple[Fields, bool]:
+    """Into (turns + BEHIND, y) what a criterion reads of a plane (depth, rows, x); the fields where it reads most.
+
+    And whether that has not faded at the border.
+    """
+    turns, smooth = task.turns, plane.stride > 0
     uncut, margin = criterion.read_uncut(data)
     by_depth = readings(uncut, margin)
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
-    x, at = data["x"].to_numpy(), {"centres": task.wheels.x.mean(axis=1), "turns": turns}
+    x, centres = data["x"].to_numpy(), task.wheels.x.mean(axis=1)
+    at, power = {"centres": centres, "turns": 2 * len(centres) - 1}, _power(criterion)
+    rows = lines.y[lines.rows]
     if lines.strips is not None:
-        power = 1 / abs(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL))
-        result[:turns] = over_strips(lines.strips, x, uncut, margin, power=power, **at)
+        peaks = over_strips(lines.strips, x, uncut, margin, power=power, **at)
     else:
         peaks = peaks_and_valleys(x, uncut, margin, smooth=smooth or plane.mean_over is not None, **at)
         # Near the surface cells do not tell what is between them.
-        rows = lines.y[lines.rows]
         between = CubicSpline(rows, peaks, axis=1) if smooth else make_interp_spline(rows, peaks, k=1, axis=1)
-        result[:turns] = np.maximum(between(lines.y), 0.0)
+        inside = (lines.y >= rows[0]) & (lines.y <= rows[-1])
+        peaks = np.where(inside, np.maximum(between(lines.y), 0.0), 0.0)
+    result[:turns] = as_turns(*rainflow(peaks[::2].T, peaks[1::2].T), turns, power)
     instant = read.argmax(axis=1)
     deep = np.take_along_axis(deepest, instant[:, None], axis=1)[:, 0]
-    result[turns + 2] = data["depth"].to_numpy()[deep][lines.nearest]
-    return _at(data, deep, instant)
+    result[turns + DEPTH] = data["depth"].to_numpy()[deep][lines.nearest]
+    border = max(read[0].max(), read[-1].max(), read[:, 0].max(), read[:, -1].max())
+    result[turns + BORDER] = ((instant == 0) | (instant == len(x) - 1))[lines.nearest]
+    return _at(data, deep, instant), bool(border > _FAINT * read.max())
 
 
-def _at(data: xr.Dataset, deep: Any, instant: Any) -> Fields:
-    """What a dataset has over all of depth, y and x, at one depth and one x for each y, by their numbers."""
+def _read_both(
+    result: Array,
+    criterion: Criterion,
+    fields: tuple[xr.Dataset, xr.Dataset, xr.Dataset],
+    task: Passing,
+    lines: Lines,
+    basin: Basin,
+) -> Fields:
+    """Into (turns + BEHIND, y) what a criterion reads near and far; the fields where it reads most on each line.
+
+    fields: near (depth, rows, x); of the basin on the same rows, and on its lines, see `Basin.lines`. Lines are
+    followed from rest to rest; peaks under axles are those between the points, or those of strips.
+    """
+    turns, power = task.turns, _power(criterion)
+    near, outside, far = fields
+    uncut, margin = criterion.read_uncut(near)
+    by_depth = readings(uncut, margin)
+    away, beside = (readings(*criterion.read_uncut(part)) for part in (far, outside))
+    x, centres = near["x"].to_numpy(), task.wheels.x.mean(axis=1)
+    whole = np.concatenate([by_depth, beside], axis=2)
+    read, far_read = whole.max(axis=0), away.max(axis=0)
+    x_all = np.concatenate([x, basin.columns[basin.outside]])
+    order = np.argsort(x_all, kind="stable")
+    axle = _axle_of(x, task.wheels)
+    on_core = lines.onto_core @ read
+    if criterion.mean_over is not None:
+        under = axle >= 0
+        part = (x[under], uncut[..., under], None if margin is None else margin[..., under])
+        for number, peak in enumerate(_axle_peaks(lines, part, centres, power)):
+            _set_peak(on_core, np.flatnonzero(axle == number), peak)
+    on_lines = np.concatenate([_turns_of(on_core[:, order], turns, power), _turns_of(far_read, turns, power)], axis=1)
+    values = make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
+    result[:turns] = np.maximum(values, 0.0)
+    most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
+    count = len(read)
+    deep = np.concatenate(
+        [
+            whole.argmax(axis=0)[np.arange(count), most[:count]],
+            away.argmax(axis=0)[np.arange(len(far_read)), most[count:]],
+        ]
+    )
+    result[turns + DEPTH] = near["depth"].to_numpy()[deep][lines.order][lines.nearest]
+    x_most = np.concatenate([x_all[most[:count]], basin.columns[most[count:]]])
+    ends = (x_most <= basin.columns[0]) | (x_most >= basin.columns[-1])
+    ends[count:] |= (basin.rows <= basin.y[0]) | (basin.rows >= basin.y[-1])
+    result[turns + BORDER] = ends[lines.order][lines.nearest]
+    deep_near, at = deep[:count], most[:count]
+    inner, outer = np.flatnonzero(at < len(x)), np.flatnonzero(at >= len(x))
+    parts = (
+        _at(near, deep_near[inner], at[inner], inner),
+        _at(outside, deep_near[outer], at[outer] - len(x), outer),
+        _at(far, deep[count:], most[count:]),
+    )
+    back = np.argsort(np.concatenate([inner, outer, np.arange(count, len(deep))]), kind="stable")[lines.order]
+    return {
+        name: (dims, np.concatenate([part_of[name][1] for part_of in parts])[back])
+        for name, (dims, _) in parts[0].items()
+    }
+
+
+def _turns_of(read: Array, turns: int, power: float) -> Array:
+    """Turns (turns, n) of lines of readings (n, nx)."""
+    return as_turns(*rainflow(*turning_points(read)), turns, power)
+
+
+def _axle_peaks(lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float) -> Array:
+    """The peak under each axle (axle, ny) on the core's y, between points too; that of strips where they are given.
+
+    part: x of the cells under the axles, uncut and margin there.
+    """
+    x, uncut, margin = part
+    at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
+    if lines.strips is not None:
+        return over_strips(lines.strips, x, uncut, margin, power=power, **at)[::2]
+    return peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2] @ lines.onto_core.T
+
+
+def _set_peak(read: Array, columns: IntArray, peak: Array) -> None:
+    """Into readings (n, nx), which have a peak (n,) among some columns: larger ones are cut, the largest is raised.
+
+    A reading that stands next to that peak outside the columns stays.
+    """
+    inside = read[:, columns]
+    highest = inside.argmax(axis=1)
+    inside = np.minimum(inside, peak[:, None])
+    inside[np.arange(len(read)), highest] = peak
+    read[:, columns] = inside
+
+
+def _axle_of(x: Array, wheels: Wheels) -> Array:
+    """Which axle's cells each x belongs to, by number; -1 beside them."""
+    half = 0.5 * (wheels.x[0, 1] - wheels.x[0, 0])
+    which = np.full(len(x), -1)
+    for number, cells in enumerate(wheels.x):
+        which[(x > cells[0] - half) & (x < cells[-1] + half)] = number
+    return which
+
+
+def _at(data: xr.Dataset, deep: Any, instant: Any, rows: Any = None) -> dict[str, tuple[tuple[str, ...], Array]]:
+    """What a dataset has over all of depth, y and x, at one depth and one x for each y, or some, by their numbers."""
     # xarray's own way costs more than what is read.
-    points = np.arange(len(instant))
+    points = np.arange(len(instant)) if rows is None else rows
     return {
         str(name): (("y", *map(str, field.dims[3:])), field.to_numpy()[deep, points, instant])
         for name, field in data.variables.items()
@@ -220,7 +344,7 @@ def _at(data: xr.Dataset, deep: Any, instant: Any) -> Fields:
 
 
 def _add_cracks(worst: Sequence[Worst], nearest: object, turns: int) -> None:
-    """Into results (turns + 3, y) angle and dip of the cracks that criteria see where they read most.
+    """Into results (turns + BEHIND, y) angle and dip of the cracks that criteria see where they read most.
 
     Criteria that read one quantity see their cracks at once: there are few places of each.
     """
@@ -251,36 +375,3 @@ def _sees_alike(criterion: Criterion, reference: Criterion) -> bool:
         reference.place,
         reference.quantity,
     )
-
-
-def _stride(depth: float, cell: float) -> int:
-    """Cells from one point to the next at a depth; 0 near the surface, where each counts."""
-    wide = min(depth / _PER_DEPTH, _COARSE)
-    return max(1, int(wide / cell + 0.5)) if depth > _DEEP else 0
-
-
-def _along(wheels: Wheels, stride: int) -> Array:
-    """Where along x a passage is read, m: on the cells under the axles and once between them, or every so many cells
-    and further where fields are smooth.
-    """
-    cell = float(wheels.x[0, 1] - wheels.x[0, 0])
-    if stride:
-        step = stride * cell
-        beyond = step * np.ceil(MARGIN / step)
-        return np.arange(wheels.x[0, 0] - beyond, wheels.x[-1, -1] + beyond + step / 2, step)
-    centres = wheels.x.mean(axis=1)
-    between = wheels.x[0, 0] + cell * np.round((0.5 * (centres[1:] + centres[:-1]) - wheels.x[0, 0]) / cell)
-    return np.unique(np.round(np.concatenate([*wheels.x, between]), 9))
-
-
-def _rows(wheels: Wheels, y: Array, stride: int) -> Any:
-    """Which values of y to solve: every cell under and beside a wheel, few elsewhere; few everywhere at depth."""
-    cells = np.arange(0, len(y), round(wheels.cell / (y[1] - y[0])))
-    wanted = np.zeros(len(cells), dtype=bool)
-    wanted[:: stride or max(1, int(_COARSE / wheels.cell + 0.5))] = True
-    wanted[-1] = True
-    if not stride:
-        for load in wheels.loads:
-            low, high = load.grid.y[0] - _BESIDE, load.grid.y[-1] + _BESIDE
-            wanted |= (y[cells] > low) & (y[cells] < high)
-    return cells[wanted]

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.climate import Season
+from treadload.damage.cycles import harm_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
 from treadload.kernels.arrays import Array
@@ -17,10 +18,11 @@ from treadload.life.caveats import bond_doubts
 from treadload.life.climate import nodes, over_the_climate, warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
-from treadload.life.passage import Passing, solve_passings
+from treadload.life.passage import ANGLE, BEHIND, BORDER, DEPTH, DIP, Passing, solve_passings, turns_of
 from treadload.life.seasons import laws_of, layer_temperatures, roads_of
 from treadload.life.threads import how_many, pool_of
 from treadload.life.wheels import Wheels, across, check_speed, states_of, wheels_of
+from treadload.response.basin import basin_reach, too_wide
 from treadload.response.input_caveats import overlapping, road_doubts
 
 
@@ -28,15 +30,15 @@ from treadload.response.input_caveats import overlapping, road_doubts
 class Passages:
     """Readings of the criteria as every class of axle passes in every season.
 
-    readings: (criterion, axle_class, season, turn, y): the peak under each axle of a group and, between them, the
-    valley: peak, valley, peak, ..., zeros behind the last. crack_angle, crack_dip: (criterion, axle_class, season,
-    y), rad, of the crack at the worst instant, in the season's road or the nearest that was solved. read_depth:
-    of the largest reading there, m.
+    readings: (criterion, axle_class, season, turn, y): the cycles of a passage by rainflow, those that do most first:
+    peak, valley, peak, ..., the first paired with rest, zeros behind the last, see `damage.cycles`.
+    crack_angle, crack_dip: (criterion, axle_class, season, y), rad, of the crack at the worst instant, in the
+    season's road or the nearest that was solved. read_depth: of the largest reading there, m.
     layer_temperatures: (criterion, season), °C. contacts, responses: how many were really solved.
     interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
     relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
-    far a wheel was moved to stand on the common cells, m. laws: (criterion, axle_class, season), of the moduli that
-    were solved. warnings: sentences for the user.
+    far a wheel was moved to stand on the common cells, m. reach: how far around the wheels was read, m.
+    laws: (criterion, axle_class, season), of the moduli that were solved. warnings: sentences for the user.
     """
 
     readings: xr.DataArray
@@ -48,6 +50,7 @@ class Passages:
     responses: int
     interpolation_error: float
     moved: float
+    reach: float
     wheels: tuple[Wheels, ...]
     laws: tuple[tuple[tuple[FatigueLaw, ...], ...], ...]
     warnings: tuple[str, ...] = ()
@@ -61,8 +64,8 @@ class Passages:
 def solve_passages(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Passages:
     """What the laws read as every class of axle passes over the road in every season.
 
-    A point of the road sees the whole field along x as the wheels roll by. Each axle of a group is a cycle of its
-    own, less what is left of it before the next one comes; wheels side by side make one cycle.
+    A point of the road meets the whole field along x as the wheels roll by, from rest to rest, the basin around them
+    included; rainflow makes cycles of it.
     workers: threads; all cores if left out. progress: called after every solve.
     One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
     seasons of one temperature each, the heaviest class is solved in all of them, and the others, criterion by
@@ -86,19 +89,20 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
     with pool_of(threads) as pool:
         contacts.solve(states, distinct[0].road, pool, count)
         by_class = [[contacts.solved[state] for state in states_of(row, tire)] for row in classes]
-        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes)
+        reach = basin_reach(road.road for roads in warm.by_class for road in roads)
+        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes, reach)
         wheels = [
             wheels_of(contacts_of_class, row, y) for contacts_of_class, row in zip(by_class, classes, strict=True)
         ]
-        turns = 2 * max(len(wheel.x) for wheel in wheels) - 1
+        turns = turns_of(wheels)
 
-        values = np.empty((len(classes), len(distinct), len(criteria), turns + 3, len(y)))
+        values = np.empty((len(classes), len(distinct), len(criteria), turns + BEHIND, len(y)), np.float32)
 
         def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
             tasks = [(row, number, numbers) for row in rows for number, numbers in by_road]
             passings = [
-                Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns)
+                Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns, reach)
                 for row, number, numbers in tasks
             ]
             for (row, number, numbers), read in zip(
@@ -131,7 +135,8 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
                         rest = values[np.ix_([number], chosen)][:, :, k]
                         values[number, :, k] = over_the_climate(warmths[number], chosen, rest, turns)[0]
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
-    everything = values[:, warm.where].transpose(2, 0, 1, 3, 4)
+    each = values if warm.where == tuple(range(len(distinct))) else values[:, warm.where]
+    everything = each.transpose(2, 0, 1, 3, 4)
     readings = xr.DataArray(
         everything[:, :, :, :turns],
         dims=("criterion", "axle_class", "season", "turn", "y"),
@@ -144,19 +149,37 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
     )
     return Passages(
         readings,
-        everything[:, :, :, turns],
-        everything[:, :, :, turns + 1],
-        everything[:, :, :, turns + 2],
+        everything[:, :, :, turns + ANGLE],
+        everything[:, :, :, turns + DIP],
+        everything[:, :, :, turns + DEPTH],
         temperatures,
         touched,
         count.total - touched,
         max(errors),
         max(wheel.moved for wheel in wheels),
+        reach,
         tuple(wheels),
         laws,
         tuple(f"{wheel.name}: {text}" for wheel in wheels for text in overlapping(wheel.loads))
         + road_doubts(distinct[0].road)
-        + bond_doubts(criteria, distinct, wheels),
+        + bond_doubts(criteria, distinct, wheels)
+        + tuple(dict.fromkeys(text for road in distinct if (text := too_wide(road.road))))
+        + _on_the_border(readings, everything[:, :, :, turns + BORDER], reach),
+    )
+
+
+def _on_the_border(readings: xr.DataArray, border: Array, reach: float) -> tuple[str, ...]:
+    """Sentences on criteria whose largest reading lies at the end of what was solved; border as readings, 0 or 1."""
+    largest = readings.to_numpy()[:, :, :, 0]
+    worst = largest.argmax(axis=-1)[..., None]
+    most = np.take_along_axis(largest, worst, axis=-1)[..., 0]
+    ends = (np.take_along_axis(border, worst, axis=-1)[..., 0] > 0) & (most > 0)
+    names, classes = readings["criterion"].to_numpy(), readings["axle_class"].to_numpy()
+    return tuple(
+        f"{names[k]}: the largest evaluated value under {', '.join(map(str, classes[row.any(axis=1)]))} lies at the "
+        f"end of the field that was solved, {reach:g} m around the wheels, so that a larger one may lie beyond"
+        for k, row in enumerate(ends)
+        if row.any()
     )
 
 
@@ -165,9 +188,7 @@ def _yearly(readings: Array, laws: Sequence[FatigueLaw], where: Sequence[int], s
 
     laws: by season. where: the road of each season, by number.
     """
-    sign = np.where(np.arange(readings.shape[1]) % 2, -1.0, 1.0)[:, None]
     damage = np.zeros((len(readings), readings.shape[2]))
     for road, law, season in zip(where, laws, seasons, strict=True):
-        each = (sign / np.asarray(law.allowable_passes(np.maximum(readings[road], 0.0)))).sum(axis=0)
-        damage[road] += season.share * np.maximum(each, 0.0)
+        damage[road] += season.share * harm_of(law, np.maximum(readings[road], 0.0))
     return damage

@@ -12,11 +12,11 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
-from treadload.contact.friction import Coulomb
 from treadload.damage.criterion import Criterion
-from treadload.damage.miner import Life, damage_of, wander_of
+from treadload.damage.life import Life
+from treadload.damage.miner import damage_of, wander_of
 from treadload.damage.thermal import years_until
-from treadload.damage.traffic import Traffic, Wander
+from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.words import RUT, STEEPEST
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -24,7 +24,17 @@ from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.thermal import daily_cycles
 from treadload.life.threads import pool_of
-from treadload.life.variants import Question, Solver, in_seasons, most, names_of, stiffer, thicker
+from treadload.life.variants import (
+    Question,
+    Solver,
+    each_class,
+    friction_number,
+    in_seasons,
+    most,
+    names_of,
+    stiffer,
+    thicker,
+)
 from treadload.materials import Mix
 from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
@@ -239,8 +249,10 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
 
     def of_classes(name: str) -> Change:
         def change(sign: float) -> Question:
-            rows = [replace(row, **{name: getattr(row, name) * (1 + sign * _STEP)}) for row in traffic.classes]
-            return road, replace(traffic, classes=tuple(rows)), climate
+            return road, each_class(traffic, lambda row: of_class(row, sign)), climate
+
+        def of_class(row: AxleClass, sign: float) -> AxleClass:
+            return replace(row, **{name: getattr(row, name) * (1 + sign * _STEP)})
 
         return change
 
@@ -248,7 +260,7 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
         "wheel load": of_classes("wheel_load"),
         "inflation pressure": of_classes("inflation_pressure"),
     }
-    numbers = [_coefficient(row.friction) for row in traffic.classes]
+    numbers = [friction_number(row.friction) for row in traffic.classes]
     numbers_with_friction = [mu for mu in numbers if mu is not None]
     if len(numbers_with_friction) < len(numbers):
         skipped.append("friction: a friction law is not a single number")
@@ -270,12 +282,6 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
     if any(layer.depends_on_temperature for layer in road.layers):
         changes[TEMPERATURE] = lambda sign: (road, traffic, climate.warmer(sign * _DEGREES))
     return changes, skipped
-
-
-def _coefficient(friction: object) -> float | None:
-    if isinstance(friction, Coulomb):
-        return friction.number
-    return float(friction) if isinstance(friction, int | float) else None
 
 
 def _on_road(question: Question, changed: Callable[[Pavement, int, float], Pavement], number: int) -> Change:

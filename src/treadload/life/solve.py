@@ -6,7 +6,7 @@ import json
 import math
 import time
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -14,7 +14,9 @@ import numpy as np
 from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
-from treadload.damage.miner import Life, miner
+from treadload.damage.life import Life
+from treadload.damage.miner import miner
+from treadload.damage.thermal import DailyCycles
 from treadload.life.caveats import beyond_tables, surface_doubts, traffic_doubts
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
@@ -25,6 +27,7 @@ from treadload.life.rutting import rut_fields
 from treadload.life.seasons import frequencies
 from treadload.life.surface_works import surface_works
 from treadload.life.thermal import daily_cycles
+from treadload.life.wheels import Wheels
 from treadload.pavement import Pavement, lift_below
 
 
@@ -41,18 +44,8 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     start = time.perf_counter()
     tire, road, traffic, climate = design.tire, design.road, design.traffic, design.climate
     criteria = tuple(design.criteria)
-    passages = solve_passages(design, workers=workers, progress=progress)
-    weather = daily_cycles(road, climate, criteria, traffic)
-    life = miner(
-        passages.readings,
-        criteria,
-        traffic,
-        climate,
-        layer_temperatures=passages.layer_temperatures,
-        cracks=(passages.crack_angle, passages.crack_dip),
-        laws=passages.laws,
-        weather=weather,
-    )
+    summed = solve_sum(design, workers=workers, progress=progress)
+    life, passages, weather = summed.life, summed.passages, summed.weather
     depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
     factors, axles = group_factors(road, life, passages, workers)
@@ -71,10 +64,7 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     variables_added = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
     dataset = life.dataset.assign(variables_added).assign_attrs(about)
     life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
-    rut: tuple[str, ...] = ()
-    if design.rutting is not None:
-        fields_of_rut, rut = rut_fields(design, design.rutting, passages.wheels)
-        life = replace(life, dataset=life.dataset.merge(fields_of_rut, combine_attrs="no_conflicts"))
+    life, rut = with_rut(life, design, passages.wheels)
     stats = {
         "contacts": passages.contacts,
         "responses": passages.responses + int((axles > 1).sum()),
@@ -89,6 +79,47 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
         *surface_doubts(road, criteria, tire, traffic),
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
+
+
+@dataclass(frozen=True, eq=False)
+class Summed:
+    """Miner's sum of a design, the passages behind it, and the cycles of its weather, if it has any."""
+
+    life: Life
+    passages: Passages
+    weather: DailyCycles | None
+
+
+def solve_sum(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Summed:
+    """The passages of a design and Miner's sum of them: the years by every criterion, and no more.
+
+    workers, progress: as in `solve_life`. Raises InputError, and ConvergenceError of a contact.
+    """
+    criteria = tuple(design.criteria)
+    passages = solve_passages(design, workers=workers, progress=progress)
+    weather = daily_cycles(design.road, design.climate, criteria, design.traffic)
+    life = miner(
+        passages.readings,
+        criteria,
+        design.traffic,
+        design.climate,
+        layer_temperatures=passages.layer_temperatures,
+        cracks=(passages.crack_angle, passages.crack_dip),
+        laws=passages.laws,
+        weather=weather,
+    )
+    return Summed(life, passages, weather)
+
+
+def with_rut(life: Life, design: Design, wheels: Sequence[Wheels]) -> tuple[Life, tuple[str, ...]]:
+    """The life with the rut of its design, and sentences on it; as it is where no rut is counted.
+
+    wheels: of every class, see `Passages`.
+    """
+    if design.rutting is None:
+        return life, ()
+    fields, caveats = rut_fields(design, design.rutting, wheels)
+    return replace(life, dataset=life.dataset.merge(fields, combine_attrs="no_conflicts")), caveats
 
 
 def _interfaces(road: Pavement, criteria: Sequence[Criterion]) -> dict[str, str]:

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 
 from treadload.damage.indices import polishing_work, tearing_work
@@ -13,7 +11,7 @@ from treadload.life.wheels import states_of
 from treadload.pavement import Pavement
 
 
-def surface_works(design: Design) -> dict[str, tuple[tuple[str, ...], Any]]:
+def surface_works(design: Design) -> dict[str, tuple[tuple[str, ...], object]]:
     """Largest works of one wheel's passage, J/m², from contacts that are solved, see `damage.indices`.
 
     largest_polishing_work (axle_class); largest_tearing_work (axle_class, season), with the shear modulus of the

@@ -44,8 +44,8 @@ def daily_cycles(
     road: whose materials wait for their temperature. traffic: its design life, for the utilisation. The mix is held
     in both horizontal directions: σ = -α/(1 - ν) ∫ E(ξ - ξ') dT through its relaxation, in the steady state of equal
     days, with the temperatures at the middle of what the criterion reads. Criteria of unbound and cement-bound
-    layers and of bonds, and those whose law was fitted to roads, have none. Raises InputError for a mix that does not
-    say how it relaxes.
+    layers and of bonds, and those whose law was fitted to roads, have none; nor have those of a mix that does not say
+    how it relaxes, of which a warning speaks.
     """
     thermal, days = climate.thermal, climate.days
     if thermal is None or days is None:
@@ -63,6 +63,10 @@ def daily_cycles(
             reasons.append(f"{criterion.name}: daily thermal stress is left out: {why}")
             continue
         material = road.layers[criterion.number(road)].material
+        unknown = thermal.unknown(material)
+        if unknown:
+            caveats.append(f"{criterion.name}: daily thermal stress is left out: {unknown}")
+            continue
         relaxing, expansion, misfit = thermal.of(material)
         if misfit > _DOUBTFUL:
             caveats.append(
@@ -85,7 +89,8 @@ def daily_cycles(
 def day_tension(road: Pavement, climate: Climate) -> Array:
     """Largest tension of the mean day of each month (month, depth), Pa, at the depths of the climate's days.
 
-    NaN in what is no mix; at an interface that of the layer above. Of a climate that asks for daily thermal stress.
+    NaN in what is no mix, and in a mix that does not say how it relaxes; at an interface that of the layer above. Of
+    a climate that asks for daily thermal stress.
     """
     thermal, days = climate.thermal, climate.days
     assert thermal is not None
@@ -94,7 +99,7 @@ def day_tension(road: Pavement, climate: Climate) -> Array:
     tension = np.full((len(MONTHS), len(days.depths)), np.nan)
     for number in np.unique(owner):
         material = elastic_part(road.layers[number].material)
-        if isinstance(material, Mix | Thermorheological):
+        if isinstance(material, Mix | Thermorheological) and not thermal.unknown(material):
             relaxing, expansion, _ = thermal.of(material)
             points = owner == number
             stress = daily_stress(relaxing, expansion, days.hours, np.moveaxis(days.temperatures[..., points], 1, 0))

@@ -67,8 +67,8 @@ def daily_intensity(
     road: whose materials wait for their temperature. distances: from the mouth, m, at which stress is read. way: of
     the crack, its tip at lengths (k,), m. ends: between which it runs. The restrained stress of
     `life.thermal.daily_stress` is that of the uncracked road; the same in all horizontal directions, it opens a
-    crack of any trace and shears one that leans. What is not bituminous has none. Raises InputError for a
-    material that does not say how it relaxes.
+    crack of any trace and shears one that leans. What is not bituminous has none, nor has a material
+    that does not say how it relaxes.
     """
     thermal, days = climate.thermal, climate.days
     if thermal is None or days is None:
@@ -78,7 +78,7 @@ def daily_intensity(
     stress = np.zeros((len(MONTHS), len(days.hours), len(distances)))
     for number in np.unique(owner):
         material = elastic_part(road.layers[number].material)
-        if is_bituminous(material) is False:
+        if is_bituminous(material) is False or thermal.unknown(material):
             continue
         relaxing, expansion, _ = thermal.of(material)
         at = owner == number

@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from treadload.contact.friction import Coulomb
+from treadload.contact.friction.laws import FrictionLaw
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.miner import damage_of, wander_of
-from treadload.damage.traffic import Traffic
+from treadload.damage.traffic import AxleClass, Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Contacts, Counter, Progress
-from treadload.life.passage import Passing, solve_passings
-from treadload.life.seasons import layer_temperatures, warmed
+from treadload.life.passage import Passing, solve_passings, turns_of
+from treadload.life.seasons import Warm, layer_temperatures, warmed
 from treadload.life.wheels import Wheels, across, states_of, wheels_of
 from treadload.materials import Anisotropic, Elastic, Mix
 from treadload.pavement import Pavement
+from treadload.response.basin import basin_reach
 
 Question = tuple[Pavement, Traffic, Climate]
 
@@ -54,6 +57,18 @@ def names_of(road: Pavement) -> list[str]:
     return [name if names.count(name) == 1 else f"{name} ({k})" for k, name in enumerate(names, start=1)]
 
 
+def each_class(traffic: Traffic, change: Callable[[AxleClass], AxleClass]) -> Traffic:
+    """The traffic with every class of axles changed."""
+    return replace(traffic, classes=tuple(change(row) for row in traffic.classes))
+
+
+def friction_number(friction: float | FrictionLaw) -> float | None:
+    """The one coefficient of a friction; None for a law that has more numbers."""
+    if isinstance(friction, Coulomb):
+        return friction.number
+    return float(friction) if isinstance(friction, int | float) else None
+
+
 def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
     """Pairs (class, season) that do most, down to those that make the coverage full, and what they cover."""
     order = np.argsort(shares, axis=None)[::-1]
@@ -65,7 +80,7 @@ def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
 
 def in_seasons(
     question: Question, criterion: Criterion, pairs: Sequence[tuple[int, int]]
-) -> dict[tuple[int, int], Any]:
+) -> dict[tuple[int, int], Warm]:
     """The road and the criterion of the pairs (class, season), shared by classes without a frequency of their own."""
     road, traffic, climate = question
     shared = {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
@@ -106,15 +121,16 @@ class Solver:
         for question, several in zip(questions, classes, strict=True):
             warm_roads = in_seasons(question, self.criterion, self.pairs)
             by_class = [[solved[state] for state in states_of(row, self.tire)] for row in several]
-            y = across([contacts_of_class[0] for contacts_of_class in by_class], several)
+            reach = basin_reach(warm.road for warm in warm_roads.values())
+            y = across([contacts_of_class[0] for contacts_of_class in by_class], several, reach)
             wheels = {}
             for row, contacts_of_class, traffic_class in zip(rows, by_class, several, strict=True):
                 key = (row, *map(id, contacts_of_class), float(y[0]))
                 if key not in stand:
                     stand[key] = wheels_of(contacts_of_class, traffic_class, y)
                 wheels[row] = stand[key]
-            turns = 2 * max(len(wheel.x) for wheel in wheels.values()) - 1
-            tasks += [Passing(wheels[row], warm_roads[row, season], y, turns) for row, season in self.pairs]
+            turns = turns_of(wheels.values())
+            tasks += [Passing(wheels[row], warm_roads[row, season], y, turns, reach) for row, season in self.pairs]
         read = iter(zip(tasks, solve_passings(tasks, pool, count), strict=True))
         return [self._damage(question, [next(read) for _ in self.pairs]) for question in questions]
 

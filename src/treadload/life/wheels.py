@@ -16,6 +16,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
+from treadload.response.basin import coarsened
 from treadload.response.loads import SurfaceLoad
 from treadload.response.superposition import merged
 from treadload.tire import Tire
@@ -47,6 +48,11 @@ class Wheels:
     def joined(self) -> list[SurfaceLoad]:
         """The same loads, fewer where they stand close together."""
         return merged(self.loads)
+
+    @cached_property
+    def coarse(self) -> list[SurfaceLoad]:
+        """The same loads on the cells that their basin needs."""
+        return coarsened(self.loads)
 
     @cached_property
     def length(self) -> float:
@@ -106,8 +112,8 @@ def contact_in_state(
     return solve_contact(inflated, road, rolling, spacing=spacing, start=start, tolerance=_TOLERANCE)
 
 
-def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
-    """Evenly spaced y, m, on the cells of the first contact and between them, over all wheels and a margin.
+def across(contacts: Sequence[Contact], classes: Sequence[AxleClass], reach: float = MARGIN) -> Array:
+    """Evenly spaced y, m, on the cells of the first contact and between them, over all wheels and a reach, m, beside.
 
     Between cells lie the places of the largest readings, which must not depend on where the cells lie.
     """
@@ -117,7 +123,7 @@ def across(contacts: Sequence[Contact], classes: Sequence[AxleClass]) -> Array:
         float(np.abs(contact.dataset["y"]).max()) + max(abs(y) for _, y in row.wheels)
         for contact, row in zip(contacts, classes, strict=True)
     )
-    low, high = np.floor((-half - MARGIN - start) / dy), np.ceil((half + MARGIN - start) / dy)
+    low, high = np.floor((-half - reach - start) / dy), np.ceil((half + reach - start) / dy)
     between = math.ceil(dy / _BETWEEN - 1e-9)
     return start + dy / between * np.arange(between * low, between * high + 1)
 

@@ -13,7 +13,7 @@ from treadload.registry import MATERIALS, SHIFTS
 from treadload.units import Celsius
 
 
-def _tested(law: object, table: TargetTable, folder: Path) -> tuple[Any, tuple[float, float] | None]:
+def _tested(law: object, table: TargetTable, folder: Path) -> tuple[object, tuple[float, float] | None]:
     """A law of shift, and the temperatures of the tests behind it, °C."""
     return law, getattr(table, "tested", None)
 
@@ -27,7 +27,7 @@ SHIFT = Choice(
 )
 
 
-def shift_of(target: Callable[..., object]) -> Mapping[str, Any]:
+def shift_of(target: Callable[..., object]) -> Mapping[str, object]:
     """Times of a viscoelastic material may shift with temperature."""
     viscoelastic = any(hasattr(kind, "complex_modulus") for kind in made_by(target) if isinstance(kind, type))
     # A protocol stands for a material of which the maker knows more.

@@ -30,6 +30,7 @@ from treadload.plots.pitch import pitch_history, pitch_maps, pitch_strains
 from treadload.plots.plain import losses, plain_map
 from treadload.plots.profile import strain_profiles
 from treadload.plots.reliability import reliability_inputs, reliability_years
+from treadload.plots.remedies import remedy_tornado
 from treadload.plots.response import depth_slice, strain_directions
 from treadload.plots.rib_shear import rib_shear
 from treadload.plots.roads import compare_roads, compare_temperatures
@@ -100,6 +101,7 @@ __all__ = [
     "pressure",
     "reliability_inputs",
     "reliability_years",
+    "remedy_tornado",
     "residual_stress",
     "rib_shares",
     "rib_shear",

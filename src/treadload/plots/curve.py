@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -76,7 +75,7 @@ def forces(curve: Source, *, along: str = "") -> Figure:
     return creep_curves([curve], [f"along {direction}"], along=direction)
 
 
-def _look(number: int, count: int) -> dict[str, Any]:
+def _look(number: int, count: int) -> dict[str, object]:
     """Line of a curve among several: each thinner than the one under it, so that coinciding curves all show."""
     share = number / max(1, count - 1)
     return {

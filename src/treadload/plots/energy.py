@@ -64,7 +64,7 @@ def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
     ax.set_xlabel(Y_LABEL)
     ax.set_ylabel(DEPTH_LABEL)
     draw_interfaces(ax, layers, bottom, on_colours=True)
-    row, column = peak_of(energy)
+    row, column = peak_of(energy, horizontal=1)
     peak = float(energy[row, column])
     mark_peak(ax, float(across[column]), float(down[row]), measure(peak))
     colour_bar(mesh, ax, "J/m³", scale, beyond=name_layers(ax, layers, bottom))

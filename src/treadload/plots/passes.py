@@ -137,7 +137,7 @@ def plastic_strain(passes: Source, *, ax: Axes | None = None) -> Figure:
     ax.set_ylim(edges[-1], edges[0])
     ax.set_xlabel(Y_LABEL)
     ax.set_ylabel(DEPTH_LABEL)
-    row, column = peak_of(field)
+    row, column = peak_of(field, horizontal=1)
     peak = float(field[row, column])
     mark_peak(ax, float(across[column]), float(down[row]), measure(peak))
     colour_bar(mesh, ax, "%", scale)

@@ -1,4 +1,4 @@
-"""A tread with blocks over here pitch: what changes from position to position, and maps where shear is largest."""
+"""A tread with blocks over one pitch: what changes from position to position, and maps where shear is largest."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _NO_FORCE = 1e-6
 
 
 @figure(
-    "PitchPassage", name="history", main=True, title="Over here pitch", wide=True,
+    "PitchPassage", name="history", main=True, title="Over one pitch", wide=True,
     caption="Peaks, area, and forces or creepages at every position of the wheel; means are dashed.",
 )  # fmt: skip
 @styled
@@ -55,7 +55,7 @@ def pitch_history(passage: Source) -> Figure:
     lower.legend()
     open_axes(upper, middle, lower)
     pitch = float(data.attrs.get("pitch", np.nan)) * MM
-    headline(upper, "Over here pitch", f"{measure(pitch)} mm, {len(at)} positions")
+    headline(upper, "Over one pitch", f"{measure(pitch)} mm, {len(at)} positions")
     return figure
 
 

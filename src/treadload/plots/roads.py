@@ -17,6 +17,7 @@ from matplotlib.lines import Line2D
 from treadload.composing import Source
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.kit.places import load_centre
@@ -164,7 +165,7 @@ def _component(strain: str) -> str:
 def _worst_place(data: xr.Dataset, name: str) -> tuple[float, float]:
     """X and y, m, of the largest strain below the shallowest depth."""
     strain = data[name].isel(depth=slice(1, None)).max("depth").transpose("y", "x")
-    row, column = np.unravel_index(int(np.nanargmax(strain.to_numpy())), strain.shape)
+    row, column = index_of_largest(strain.to_numpy())
     return float(strain["x"][column]), float(strain["y"][row])
 
 
@@ -174,7 +175,7 @@ def _under_load(response: Source, section: xr.Dataset, name: str) -> float:
         return load_centre(response)[0 if name == "x" else 1]
     except InputError:
         strain = section["principal_strain_1"].transpose("depth", name).to_numpy()
-        return float(section[name][np.unravel_index(int(np.nanargmax(strain)), strain.shape)[1]])
+        return float(section[name][index_of_largest(strain, horizontal=1)[1]])
 
 
 def _profiles(

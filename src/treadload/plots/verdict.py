@@ -18,6 +18,7 @@ from treadload.damage.laws.fatigue import FatigueLine
 from treadload.damage.verdict import under
 from treadload.errors import InputError
 from treadload.figure_registry import comparison, figure
+from treadload.kernels.largest import index_of_largest
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import (
     MICRO,
@@ -207,7 +208,7 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
             Line2D([], [], color=ORIENTATION_COLOURS[code], lw=2.2, label=ORIENTATIONS[code]) for code in present
         ]
         legend_below(ax, lines)
-        row, column = np.unravel_index(int(np.nanargmax(opening)), opening.shape)
+        row, column = index_of_largest(opening)
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(opening[row, column])))
         splits = bool((codes == HORIZONTAL).all())
         title = "Planes that split, nearer to the horizontal" if splits else "Cracks to expect"

@@ -7,7 +7,7 @@ import inspect
 import re
 import types
 from collections.abc import Callable, Collection
-from typing import Any, Union, get_args, get_origin, get_type_hints
+from typing import Any, Union, Unpack, get_args, get_origin, get_type_hints
 
 from treadload.errors import InputError
 
@@ -31,6 +31,10 @@ def parameters(target: Callable[..., Any], hidden: tuple[Any, ...] = ()) -> dict
     }
     taken: dict[str, tuple[Any, Any]] = {}
     for name, parameter in signature.parameters.items():
+        if parameter.kind is parameter.VAR_KEYWORD and get_origin(hints.get(name)) is Unpack:
+            # Keys that several makers share, all of which may be left out.
+            (shared,) = get_args(hints[name])
+            taken |= {key: (hint, None) for key, hint in get_type_hints(shared, include_extras=True).items()}
         if parameter.kind in (parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD):
             continue
         if name not in hints:

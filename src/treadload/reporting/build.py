@@ -103,7 +103,7 @@ def _template() -> jinja2.Template:
     return environment.from_string(text)
 
 
-def _content(cases: list[ReportCase], title: str) -> dict[str, Any]:
+def _content(cases: list[ReportCase], title: str) -> dict[str, object]:
     side_by_side, compared = comparison_figures(cases)
     return {
         "title": title,

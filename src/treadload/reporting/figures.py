@@ -12,7 +12,7 @@ from treadload.errors import InputError
 from treadload.figure_registry import comparisons
 from treadload.registry import RESULTS
 from treadload.reporting.pictures import Picture, draw_all, pictures_of
-from treadload.reporting.reading import GROUPS, Extra, ReportCase
+from treadload.reporting.reading import Extra, ReportCase, groups_in_columns
 from treadload.reporting.studies import study_tables
 from treadload.reporting.tables import NamedTable, tables_of
 from treadload.rows import from_json
@@ -32,7 +32,7 @@ def case_sections(case: ReportCase, compared: Collection[Callable[..., object]])
     """A section for each class of results of a case. compared: figures that show several cases already."""
     beside = _beside(case)
     by_class: dict[str, list[xr.Dataset]] = {}
-    for kind in GROUPS:
+    for kind in groups_in_columns():
         data = case.group(kind)
         # The years stand at the head of the page.
         if data is not None and kind != "life":

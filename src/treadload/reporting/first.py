@@ -14,6 +14,7 @@ import xarray as xr
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, crack_plane, in_a_cell, opens_down, orientation
 from treadload.damage.fields import known_quantities
 from treadload.damage.quantity import Quantity, cut, in_tension
+from treadload.kernels.largest import index_of_largest
 from treadload.plots.first import crack_or_not, failing_order
 from treadload.plots.kit.style import signed
 from treadload.plots.response import NAMES
@@ -125,7 +126,7 @@ def short_source(source: str) -> str:
 def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...], bool]:
     """Cells of the table, and whether a crack runs down there."""
     values = cut(quantity.values(data), quantity.opens(data))
-    at = np.unravel_index(int(np.nanargmax(values)), values.shape)
+    at = index_of_largest(values)
     largest = float(values[at])
     depth, y, x = (float(data[name][k]) for name, k in zip(("depth", "y", "x"), at, strict=True))
     way, opens = "–", False

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from treadload.case import Case
 from treadload.case.criteria import CRITERION, CriterionTable, quantity_of
@@ -64,7 +63,7 @@ def input_lists(cases: list[ReportCase]) -> list[NamedTable]:
     return tables
 
 
-def _table(case: ReportCase) -> dict[str, Any]:
+def _table(case: ReportCase) -> dict[str, object]:
     try:
         return tomllib.loads(case.toml)
     except tomllib.TOMLDecodeError:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.composing import result_classes
+from treadload.composing import Columns, class_of_group, result_classes
 from treadload.damage.verdict import rows_of
 from treadload.errors import InputError
 from treadload.footprint import Footprint
@@ -26,10 +26,6 @@ from treadload.results.tree import QUESTIONS
 from treadload.rows import Row, from_json
 from treadload.variables import in_order
 
-# Kinds with tables and figures of their own; whatever else a tree holds is shown by its summary and figures.
-GROUPS = ("contact", "response", "slice_along", "slice_across", "bowl", "damage", "life")
-# What the points of a response are, beside a map.
-_POINTS = ("slice_along", "slice_across", "bowl", "points")
 STRAINS = ("largest_principal_strain", "largest_in_plane_strain")
 # Rows of a verdict on its card.
 _FACTS = ("evaluation", "contacts_evaluated", "worst_strain", "worst_crack_orientation", "worst_passes")
@@ -53,7 +49,7 @@ class Extra:
 
 @dataclass(frozen=True, eq=False)
 class ReportCase:
-    """One case: its label and its groups of results by kind (`GROUPS`), those that are there; and all others.
+    """One case: its label and its groups of results by kind (`groups_in_columns`), those there are; and all others.
 
     classes: of the results of the groups.
     """
@@ -85,7 +81,7 @@ class ReportCase:
             owner = node.attrs.get("part_of")
             if isinstance(owner, str) and owner:
                 inside.setdefault(owner, {}).setdefault(kind_of(name, node.attrs), node)
-        classes = _classes(tree)
+        classes, in_columns = _classes(tree), groups_in_columns()
         kept: dict[str, dict[str, str]] = {}
         by_case: dict[str, tuple[dict[str, xr.Dataset], list[Extra]]] = {}
         for name, node in nodes.items():
@@ -94,7 +90,7 @@ class ReportCase:
             kind = _ALSO.get(kind_of(name, node.attrs), kind_of(name, node.attrs))
             called = _called(name, kind, label)
             groups, extras = by_case.setdefault(called, ({}, []))
-            if kind in GROUPS and kind not in groups:
+            if kind in in_columns and kind not in groups:
                 groups[kind] = node
                 if name in classes:
                     kept.setdefault(called, {})[kind] = classes[name]
@@ -188,7 +184,7 @@ class ReportCase:
         texts = [str(text) for data in datasets for text in read_json(data.attrs.get("warnings"), [])]
         return list(dict.fromkeys(texts))
 
-    def statistics(self, group: str) -> dict[str, Any]:
+    def statistics(self, group: str) -> dict[str, object]:
         """Statistics of the solver of a group."""
         data = self.group(group)
         return dict(read_json(data.attrs.get("stats"), {})) if data is not None else {}
@@ -256,7 +252,16 @@ class ReportCase:
         return next((typeset(row) for row in rows if row.key == "verdict"), "")
 
 
-def kind_of(name: str, attrs: Mapping[Any, Any]) -> str:
+def groups_in_columns() -> dict[str, Columns]:
+    """Groups of results that a report compares in columns; whatever else a tree holds is shown by itself."""
+    groups: dict[str, Columns] = {}
+    for kind in result_classes().values():
+        if kind.columns is not None:
+            groups |= {kind.group: kind.columns, **dict.fromkeys(kind.sections, Columns())}
+    return groups
+
+
+def kind_of(name: str, attrs: Mapping[object, object]) -> str:
     """Kind of the result in a group: as it says, else as it is called."""
     result_name = attrs.get("result")
     return result_name if isinstance(result_name, str) and result_name else name
@@ -273,8 +278,7 @@ def _classes(tree: xr.DataTree) -> dict[str, str]:
 
 def _class_of(kind: str) -> str:
     """The class of results of a kind, as it is called in files of other writers."""
-    groups = {kind.group: name for name, kind in reversed(result_classes().items())}
-    return groups.get(kind, "Response" if kind in _POINTS else kind)
+    return class_of_group(kind) or kind
 
 
 def _called(name: str, kind: str, label: str) -> str:

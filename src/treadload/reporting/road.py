@@ -34,7 +34,7 @@ def road_tables(cases: list[ReportCase]) -> list[RoadTable]:
     return [_table(case, case.layers, named=len(cases) > 1) for case in cases if case.layers]
 
 
-def _table(case: ReportCase, layers: list[dict[str, Any]], *, named: bool) -> RoadTable:
+def _table(case: ReportCase, layers: list[dict[str, object]], *, named: bool) -> RoadTable:
     speed = "" if case.speed is None else f"wheels at {measure(case.speed * 3.6)} km/h"
     season = str(case.attrs.get("season", ""))
     warm = f"in the season that does most of the governing damage, {season}" if season else ""

@@ -6,8 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from treadload.plots.kit.style import power_of_ten, thousands
-from treadload.reporting.reading import ReportCase
+from treadload.reporting.reading import ReportCase, groups_in_columns
 from treadload.reporting.typesetting import typeset, with_minus
+from treadload.response import Response
 from treadload.rows import Row as StatedRow
 from treadload.rows import blocks_of, table_of
 
@@ -46,15 +47,15 @@ def result_table(cases: list[ReportCase]) -> list[Section]:
     strains = (
         f"Largest tensile strain at points {cases[0].depth_in_words}: near the edges of ribs it depends on the cells"
     )
-    alone = [
-        [{row.key: row for row in case.rows(kind) if not row.group and row.key != "verdict"} for case in cases]
-        for kind in ("contact", "damage")
-    ]
-    sections = [
-        Section("Contact", tuple(_rows(alone[0]))),
-        Section(strains, tuple(_rows([case.strains for case in cases], note="direction"))),
-        Section("Fatigue and cracks", tuple(_rows(alone[1]))),
-    ]
+    sections = []
+    for kind, columns in groups_in_columns().items():
+        if kind == Response.group:
+            sections.append(Section(strains, tuple(_rows([case.strains for case in cases], note="direction"))))
+        elif columns.rows:
+            stated = [
+                {row.key: row for row in case.rows(kind) if not row.group and row.key != "verdict"} for case in cases
+            ]
+            sections.append(Section(columns.rows, tuple(_rows(stated))))
     return _filled(sections)
 
 
@@ -114,7 +115,7 @@ def _with_remarks(
 def statistics_table(cases: list[ReportCase]) -> list[Section]:
     """How it was solved: iterations, residuals, cells, seconds."""
     sections = []
-    for group, heading in (("contact", "Contact solver"), ("response", "Response")):
+    for group, columns in groups_in_columns().items():
         statistics = [case.statistics(group) for case in cases]
         names = list(dict.fromkeys(name for stats in statistics for name in stats))
         rows = tuple(
@@ -125,7 +126,8 @@ def statistics_table(cases: list[ReportCase]) -> list[Section]:
             )
             for name in names
         )
-        sections.append(Section(heading, rows))
+        if columns.stats:
+            sections.append(Section(columns.stats, rows))
     return _filled(sections)
 
 

@@ -215,11 +215,11 @@ def number(value: float) -> str:
 
 
 @cache
-def _hints(model: type) -> dict[str, Any]:
+def _hints(model: type) -> dict[str, object]:
     return get_type_hints(model, include_extras=True)
 
 
-def annotation_of(model: object, key: str) -> Any:
+def annotation_of(model: object, key: str) -> object:
     """Type of a field with its unit; None where the part or the key is not known."""
     return None if model is None else _hints(model).get(key)
 
@@ -304,7 +304,7 @@ def _text(value: Any, annotation: Any, factor: float) -> str:
     return _VALUES.get(str(value), str(value))
 
 
-def _pair(pair: list[Any], annotation: object, factor: float) -> str:
+def _pair(pair: list[object], annotation: object, factor: float) -> str:
     """Numbers in a bracket; each with its unit where they are of several kinds."""
     symbols = list(units_in(annotation))
     if len(set(symbols)) < 2 or len(symbols) != len(pair):

@@ -56,7 +56,7 @@ def _middle(load: PlacedLoad) -> float:
     return sum(load.extent_y) / 2 if isinstance(load, GridLoad) else load.y
 
 
-def _each(load: object) -> Sequence[Any]:
+def _each(load: object) -> Sequence[object]:
     return load if isinstance(load, Sequence) else [load]
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -92,7 +92,7 @@ def half_space_fields(
     *,
     tell: Callable[[str], None] | None = None,
     moves: bool = True,
-    precision: type[np.floating[Any]] = np.float64,
+    precision: type[np.floating] = np.float64,
     kept: Keeper | None = None,
 ) -> list[tuple[Array, str]]:
     """Stress and displacement times the shear modulus, (nz, 9, my, mx), and the method, for each of some loads.

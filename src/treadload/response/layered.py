@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -114,7 +115,7 @@ def layered_responses(
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError where that decay is too slow for the distance of the points.
     """
-    layouts = [_Layout.of(site, below, view.accuracy.fall) for site in sites]
+    layouts = [_Layout.of(site, below, view.accuracy) for site in sites]
     discs = [[load for load in several if isinstance(load, UniformDisc)] for several in loads]
     gridded = [[load for load in several if isinstance(load, GridLoad)] for several in loads]
     under_cells = [pair for pair in pairs if gridded[pair[0]]]
@@ -181,7 +182,8 @@ def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
 class _Layout:
     """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off.
 
-    fall: waves are cut where they have fallen to e^-fall. mean: weights (rows, nz) of the sums that are asked.
+    fall: waves are cut where they have fallen to e^-fall, and at cut, 1/m, where a blur has faded. mean: weights
+    (rows, nz) of the sums that are asked.
     """
 
     materials: tuple[Solid, ...]
@@ -192,17 +194,21 @@ class _Layout:
     split: list[bool]
     fall: float
     mean: Array
+    cut: float = math.inf
 
     @classmethod
-    def of(cls, site: Site, below: bool, fall: float) -> _Layout:
-        """With the half-space split off wherever that may gain something."""
+    def of(cls, site: Site, below: bool, accuracy: Accuracy) -> _Layout:
+        """With the half-space split off wherever that may gain something: nowhere where waves are blurred."""
         stack = stack_of(site.road)
         depths = stack.snapped(site.depths)
         where = [stack.layer_at(float(z), below) for z in depths]
-        near = [layer == 0 and z < _SPLIT * stack.interfaces[0] for z, layer in zip(depths, where, strict=True)]
+        near = [
+            layer == 0 and z < _SPLIT * stack.interfaces[0] and not accuracy.blur
+            for z, layer in zip(depths, where, strict=True)
+        ]
         materials = tuple(layer.elastic for layer in site.road.distinct_layers)
         mean = np.eye(len(depths)) if site.mean is None else site.mean
-        return cls(materials, stack, depths, where, below, near, fall, mean)
+        return cls(materials, stack, depths, where, below, near, accuracy.fall, mean, accuracy.cut)
 
     @property
     def length(self) -> float:
@@ -215,7 +221,8 @@ class _Layout:
         """Largest wavenumber that matters at each depth, 1/m."""
         top = self.stack.faded(float(self.stack.interfaces[0]))
         faded = [self.stack.faded(float(z)) for z in self.depths]
-        return np.array([self.fall / (2 * top - z if near else z) for z, near in zip(faded, self.split, strict=True)])
+        ways = [2 * top - z if near else z for z, near in zip(faded, self.split, strict=True)]
+        return np.array([self.cut if way * self.cut <= self.fall else self.fall / way for way in ways])
 
     @property
     def rows(self) -> list[int]:
@@ -241,16 +248,18 @@ class _Layout:
         """One of its sums, with its table if that was made before."""
         columns = np.flatnonzero(self.mean[row])
         parts = tuple((float(self.mean[row, k]), float(self.depths[k]), self.split[k]) for k in columns)
-        return _plane(self.stack, parts, self.where[columns[0]], self.below, self.fall)
+        return _plane(self.stack, parts, self.where[columns[0]], self.below, (self.fall, self.cut))
 
 
 @lru_cache(maxsize=256)
 def _plane(
-    stack: Stack, parts: tuple[tuple[float, float, bool], ...], layer: int, below: bool, fall: float
+    stack: Stack, parts: tuple[tuple[float, float, bool], ...], layer: int, below: bool, ends: tuple[float, float]
 ) -> ElasticPlane:
-    """A sum over depths in a layer. parts: weight, depth, and whether the half-space is split off."""
+    """A sum over depths in a layer. parts: weight, depth, and whether the half-space is split off; fall, cut."""
     weights, depths, split = (list(each) for each in zip(*parts, strict=True))
-    layout = _Layout((), stack, np.array(depths), [layer] * len(parts), below, split, fall, np.array([weights]))
+    layout = _Layout(
+        (), stack, np.array(depths), [layer] * len(parts), below, split, ends[0], np.array([weights]), ends[1]
+    )
 
     def kernels(k: Array) -> tuple[Array, Array]:
         plane, transverse = layout.kernels(k)
@@ -365,7 +374,10 @@ def _rules(
         _reach([load.extent_y for load in loads], view.y),
     )
     longest = max(length, reach_x, reach_y)
-    return rule(limit, reach_x, longest, view.accuracy), rule(limit, reach_y, longest, view.accuracy)
+    return (
+        view.accuracy.blurred(*rule(limit, reach_x, longest, view.accuracy)),
+        view.accuracy.blurred(*rule(limit, reach_y, longest, view.accuracy)),
+    )
 
 
 def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> Array:

@@ -10,7 +10,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal
+from typing import Any, Literal, Unpack
 
 import numpy as np
 import xarray as xr
@@ -109,22 +109,16 @@ class GridLoad:
         cls,
         path: str | os.PathLike[str],
         *,
-        spacing: float | str | tuple[float | str, float | str] | None = None,
-        x0: float | None = None,
-        y0: float | None = None,
-        units: Mapping[str, str] | None = None,
-        missing: Literal["error", "zero"] = "error",
-        noise: float | str = 0.0,
-        decimal: Literal[".", ","] | None = None,
         shear_on: Literal["road", "tire"] = "road",
         interpolation: Literal["constant", "bilinear"] = "constant",
+        **layout: Unpack[measured.Layout],
     ) -> GridLoad:
-        """Load from a text file, a table of points or a matrix of pressures; see `measured.read_csv`."""
+        """Load from a text file, a table of points or a matrix of pressures.
+
+        layout: spacing=, x0=, y0=, units=, missing=, noise=, decimal= as `measured.read_csv` takes them.
+        """
         sign = measured.shear_sign(shear_on)
-        read = measured.read_csv(
-            path, spacing=spacing, x0=x0, y0=y0, units=units, missing=missing, noise=noise, decimal=decimal
-        )
-        return cls._of(read, interpolation, sign)
+        return cls._of(measured.read_csv(path, **layout), interpolation, sign)
 
     @classmethod
     def from_file(

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict, Unpack
 
 import numpy as np
 import xarray as xr
@@ -48,18 +48,32 @@ class Recorded:
     source: str = ""
 
 
-def read_csv(
-    path: str | os.PathLike[str],
-    *,
-    spacing: float | str | tuple[float | str, float | str] | None = None,
-    x0: float | None = None,
-    y0: float | None = None,
-    units: Mapping[str, str] | None = None,
-    missing: Literal["error", "zero", "keep"] = "error",
-    noise: float | str = 0.0,
-    decimal: str | None = None,
-    strict: bool = False,
-) -> Recorded:
+class Layout(TypedDict, total=False):
+    """The fields of `TextLayout`, as keywords."""
+
+    spacing: float | str | tuple[float | str, float | str] | None
+    x0: float | None
+    y0: float | None
+    units: Mapping[str, str] | None
+    missing: Literal["error", "zero", "keep"]
+    noise: float | str
+    decimal: str | None
+
+
+@dataclass(frozen=True)
+class TextLayout:
+    """How a text of numbers is read where it does not say so itself, see `read_csv`."""
+
+    spacing: float | str | tuple[float | str, float | str] | None = None
+    x0: float | None = None
+    y0: float | None = None
+    units: Mapping[str, str] | None = None
+    missing: Literal["error", "zero", "keep"] = "error"
+    noise: float | str = 0.0
+    decimal: str | None = None
+
+
+def read_csv(path: str | os.PathLike[str], *, strict: bool = False, **layout: Unpack[Layout]) -> Recorded:
     """Cells and stress from a text file in one of two forms.
 
     A table has a header with x, y, pressure (or p) and perhaps traction_x, traction_y (or qx, qy), and a row for each
@@ -68,26 +82,26 @@ def read_csv(
     Semicolons, tabs, commas or blanks separate, and points or commas are decimal marks, as `tables.read_table`
     recognises them; # starts a comment line.
 
-    spacing: of the cells, m or text with a unit, or (dx, dy); a matrix needs it, a table where its coordinates
-    do not give it. x0, y0: of a matrix, centre of the first cell, m; None: the origin lies in the middle.
-    units: column → unit where the header names none, {"pressure": "kPa"}; otherwise SI. missing: what stands where
-    a cell is empty, says NaN or NoData, or is absent: "error", "zero", or "keep" for NaN. noise: pressures this far
-    below zero, Pa or text with a unit, are set to zero. decimal: "." or ",", where the file can be read in two
-    ways. strict: refuse what names no unit, which is SI otherwise.
+    layout: spacing=, x0=, y0=, units=, missing=, noise= and decimal=. spacing: of the cells, m or text with a unit,
+    or (dx, dy); a matrix needs it, a table where its coordinates do not give it. x0, y0: of a matrix, centre of the
+    first cell, m; None: the origin lies in the middle. units: column → unit where the header names none, {"pressure":
+    "kPa"}; otherwise SI. missing: what stands where a cell is empty, says NaN or NoData, or is absent: "error",
+    "zero", or "keep" for NaN. noise: pressures this far below zero, Pa or text with a unit, are set to zero. decimal:
+    "." or ",", where the file can be read in two ways. strict: refuse what names no unit, which is SI otherwise.
     Raises InputError that names the line for what cannot be read.
     """
-    path = Path(path)
-    if missing not in ("error", "zero", "keep"):
-        raise InputError(f'missing must be "error" or "zero", or "keep" for NaN, got {missing!r}')
-    floor = quantity(noise, "Pa")
-    units = dict(units or {})
+    path, how = Path(path), TextLayout(**layout)
+    if how.missing not in ("error", "zero", "keep"):
+        raise InputError(f'missing must be "error" or "zero", or "keep" for NaN, got {how.missing!r}')
+    floor = quantity(how.noise, "Pa")
+    units = dict(how.units or {})
     check_names(units, _COLUMNS, "the columns")
-    table = read_table(path, decimal=decimal)
+    table = read_table(path, decimal=how.decimal)
     if not table.has_header:
-        return _matrix(table, spacing, x0, y0, units, missing, floor, strict)
-    if x0 is not None or y0 is not None:
+        return _matrix(table, how.spacing, how.x0, how.y0, units, how.missing, floor, strict)
+    if how.x0 is not None or how.y0 is not None:
         raise InputError(f"{path} is a table with coordinates of its own: leave out x0 and y0, and move the load")
-    return _table(table, spacing, units, missing, floor, strict)
+    return _table(table, how.spacing, units, how.missing, floor, strict)
 
 
 def read_netcdf(path: str | os.PathLike[str], units: Mapping[str, str] | None = None) -> Recorded:

@@ -73,9 +73,9 @@ def tensors_of_many(
     component of stress or strain.
     """
     wanted = set(needs)
-    if not wanted <= set(_PARTS):
+    components = components_of(wanted)
+    if components is None:
         return None
-    components = sorted({part for name in wanted for part in _PARTS[name]})
     view = View(x, y, components=components, accuracy=READING)
     solved = answers(questions, view, side=side, speed=speed, mean_over=mean_over)
     # Coordinates are made once: many small fields cost less than they.
@@ -91,6 +91,12 @@ def tensors_of_many(
         )
         for question, fields in zip(questions, tensors, strict=True)
     ]
+
+
+def components_of(needs: Iterable[str]) -> list[int] | None:
+    """Components of the stress, by number, that variables take; None where one is none of stress or strain."""
+    wanted = set(needs)
+    return sorted({part for name in wanted for part in _PARTS[name]}) if wanted <= set(_PARTS) else None
 
 
 def answers(

@@ -9,8 +9,9 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult, Holds
+from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact import Contact
+from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement, methods_of
 from treadload.response.fields import COMPONENTS, angle_in_words, direction_in_words, kind_of_points, layer_in_words
 from treadload.response.loads import PlacedLoad
@@ -38,6 +39,9 @@ class Response(BaseResult, group="response"):
     """
 
     title: ClassVar[str] = "Strain in the road"
+    sections: ClassVar[tuple[str, ...]] = ("slice_along", "slice_across", "bowl")
+    also: ClassVar[tuple[str, ...]] = ("points", "slice")
+    columns: ClassVar[Columns] = Columns(stats="Response")
 
     # On a grid, or at a list of points.
     holds: ClassVar[Holds] = Holds(
@@ -118,8 +122,8 @@ def _largest(
     values = strain.to_numpy()
     if np.isnan(values).all():
         return row(key, np.nan, group=group, note="unknown: it is NaN everywhere")
-    index = np.unravel_index(int(np.nanargmax(values)), values.shape)
-    here = plane.isel(dict(zip(map(str, strain.dims), map(int, index), strict=True)))
+    index = index_of_largest(values, horizontal=len({"x", "y"} & set(strain.dims)))
+    here = plane.isel(dict(zip(map(str, strain.dims), index, strict=True)))
     value = float(np.nanmax(values))
     if value <= 0:
         return row(key, value, group=group, note="no tensile strain")

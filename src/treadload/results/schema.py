@@ -15,14 +15,12 @@ from typing import Any
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult, Holds, result_classes
+from treadload.composing import BaseResult, Holds, class_of_group, result_classes
 from treadload.errors import InputError, one_line
 from treadload.files import parse_toml
 from treadload.kernels.arrays import Array
 from treadload.variables import VARIABLES
 
-# What the points of a response are, beside a map.
-_POINTS = ("slice", "slice_along", "slice_across", "bowl", "points")
 # Texts that a file and each of its groups may have.
 _TEXTS = ("title", "case", "treadload_version", "created", "season", "summary")
 _TEXTS_OF_A_GROUP = ("result", "part_of", "summary", "sentence", "rows")
@@ -50,8 +48,9 @@ def check_tree(tree: xr.DataTree, name: str) -> None:
 
 def _class_of(kind: str) -> type[BaseResult] | None:
     """The class that says how a group of this kind is checked before it is read; None without one."""
-    group = "response" if kind in _POINTS else kind
-    return next((kind for kind in result_classes().values() if kind.group == group and kind.holds.tree), None)
+    classes = result_classes()
+    group = classes[name].group if (name := class_of_group(kind)) else kind
+    return next((kind for kind in classes.values() if kind.group == group and kind.holds.tree), None)
 
 
 def check_texts(attrs: Mapping[Any, Any], names: Iterable[str], where: str) -> None:

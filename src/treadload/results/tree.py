@@ -40,8 +40,6 @@ QUESTIONS = "asked"
 
 Part = BaseResult | GridLoad | xr.Dataset
 
-# Sections through the road would repeat the warnings of the map, each for its own depths.
-_QUIET = ("slice_along", "slice_across", "bowl")
 # Attributes of a group, and the row that each of them is.
 _ANSWERS = {"sentence": "verdict", "governing": "governing"}
 _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
@@ -188,7 +186,8 @@ def _about(part: BaseResult, owner: str) -> dict[str, str]:
     about = {"result": kind, "stats": json.dumps(dict(part.stats), default=_plain)}
     if owner:
         return {**about, "part_of": owner}
-    if kind not in _QUIET:
+    # Sections through the road would repeat the warnings of the map, each for its own depths.
+    if kind not in part.sections:
         rows = part.rows()
         about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
         about |= {"summary": part.summary(), "heading": part.heading}

@@ -24,6 +24,7 @@ from treadload.steps.sensitivity import SensitivityStep
 from treadload.steps.reliability import ReliabilityStep
 from treadload.steps.growth import GrowthStep
 from treadload.steps.equivalents import EquivalentsStep
+from treadload.steps.remedies import RemediesStep
 from treadload.steps.calibration import CalibrationStep
 
 # isort: on
@@ -40,8 +41,8 @@ Case.take_steps(())
 __all__ = [
     "AggregatesStep", "BowlStep", "CalibrationStep", "ContactStep", "CrossingStep", "DamageStep", "DrumStep",
     "EnvelopingStep", "EquivalentsStep", "FootprintStep", "GrowthStep", "IndentationStep", "LifeStep", "Options",
-    "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "ResponseStep", "Result", "RuttingStep",
-    "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "UniformStep",
+    "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "RemediesStep", "ResponseStep", "Result",
+    "RuttingStep", "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "UniformStep",
     "case_as_python",
     "design_case", "design_of", "plan", "run", "stream",
 ]  # fmt: skip

@@ -16,6 +16,7 @@ from treadload.damage.laws.french import RISK
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.life.wheels import MARGIN
 from treadload.materials import HydraulicMix, Mix, Unbound
 from treadload.materials.plastic import elastic_part
@@ -156,7 +157,7 @@ def _read(load: Loaded, criterion: Criterion) -> Allowed:
         mean_over=criterion.mean_over, progress=load.tell,
     ).dataset.isel(depth=0)  # fmt: skip
     values = criterion.read(data)
-    row, column = np.unravel_index(int(values.argmax()), values.shape)
+    row, column = index_of_largest(values)
     assert load.case.pavement is not None
     temperature = load.case.pavement.layer_temperatures()[number]
     law = criterion.law_at(_ANY_TEMPERATURE if temperature is None else temperature)

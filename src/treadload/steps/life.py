@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
@@ -143,7 +143,7 @@ class LifeStep(Source, name="life"):
         ]
         outline.warnings += traffic_doubts(tire, traffic, climate)
 
-    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, Any]:
+    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, object]:
         """The road in the season that does most damage."""
         life = results["life"]
         assert isinstance(life, Life)

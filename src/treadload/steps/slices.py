@@ -12,6 +12,7 @@ import xarray as xr
 from treadload.case.step import Results, Step
 from treadload.damage import Verdict
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement
 from treadload.response import Response
 from treadload.steps.outline import Outline
@@ -67,7 +68,7 @@ def _worst_point(response: Response, verdict: Verdict | None) -> tuple[float, fl
     if verdict is not None and float(verdict.dataset["worst_strain"]) > 0:
         return float(verdict.dataset["worst_x"]), float(verdict.dataset["worst_y"])
     strain = response.dataset.principal_strain_1.isel(depth=0)
-    row, column = np.unravel_index(int(np.nanargmax(strain.values)), strain.shape)
+    row, column = index_of_largest(strain.values)
     return float(strain.x[column]), float(strain.y[row])
 
 

@@ -11,6 +11,7 @@ import zipfile
 import zlib
 from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,7 @@ from treadload.sweeps.selection import attributes
 _CHUNK = 500_000
 
 
-def zarr() -> Any:
+def zarr() -> ModuleType:
     """The library of the store. Raises InputError where it is not installed."""
     try:
         import zarr as library

@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Iterator, Sequence
 from concurrent.futures import CancelledError, Future
 from multiprocessing import resource_tracker
+from types import ModuleType
 from typing import Any
 
 from treadload.errors import InputError, TreadloadError, WorkersLost, how_to_install, one_line
@@ -104,7 +105,7 @@ def _interrupted_later() -> Iterator[None]:
             raise KeyboardInterrupt
 
 
-def _done(distributed: Any, futures: list[Any]) -> set[Any]:
+def _done(distributed: ModuleType, futures: list[Any]) -> set[Any]:
     """Futures that are done by now, or within a moment."""
     try:
         done: set[Any] = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED").done
@@ -113,7 +114,7 @@ def _done(distributed: Any, futures: list[Any]) -> set[Any]:
     return done
 
 
-def _record(distributed: Any, future: Any, number: int) -> Record | None:
+def _record(distributed: ModuleType, future: Any, number: int) -> Record | None:
     """The record of a case; None where it was lost with its worker and is solved again."""
     try:
         record: Record = future.result(timeout=_REACH)
@@ -131,7 +132,7 @@ def _record(distributed: Any, future: Any, number: int) -> Record | None:
     return record
 
 
-def _client(distributed: Any, scheduler: Any, jobs: int, stack: contextlib.ExitStack) -> Any:
+def _client(distributed: ModuleType, scheduler: Any, jobs: int, stack: contextlib.ExitStack) -> Any:
     if isinstance(scheduler, distributed.Client):
         return scheduler
     if scheduler == LOCAL:
@@ -156,7 +157,7 @@ def _client(distributed: Any, scheduler: Any, jobs: int, stack: contextlib.ExitS
         ) from error
 
 
-def _connected(distributed: Any, scheduler: Any) -> Any:
+def _connected(distributed: ModuleType, scheduler: Any) -> Any:
     """A client of a scheduler; an interruption leaves it to its thread, for half a client cannot be closed."""
     future: Future[Any] = Future()
     left = threading.Event()
@@ -179,7 +180,7 @@ def _connected(distributed: Any, scheduler: Any) -> Any:
         raise
 
 
-def _distributed() -> Any:
+def _distributed() -> ModuleType:
     try:
         import distributed
     except ImportError as error:

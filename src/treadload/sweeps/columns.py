@@ -26,7 +26,7 @@ def is_number(value: object) -> bool:
     return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
 
 
-def listed_values(name: str, values: object) -> list[Any]:
+def listed_values(name: str, values: object) -> list[object]:
     """The values of an input. Raises InputError for what is no list, and for an empty one."""
     if isinstance(values, str | bytes | Mapping) or not isinstance(values, Sequence | np.ndarray | xr.DataArray):
         raise InputError(f"{name} needs a list of values, got {values!r}")

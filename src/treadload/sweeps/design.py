@@ -176,7 +176,7 @@ def product(case: Case, vary: Mapping[str, object]) -> Design:
 
 def listed(
     case: Case,
-    rows: Sequence[Mapping[str, Any]],
+    rows: Sequence[Mapping[str, object]],
     *,
     labels: Mapping[str, Sequence[str | int]] | None = None,
     faults: Mapping[int, str] | None = None,
@@ -245,7 +245,7 @@ def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
     return _checked(case, columns)
 
 
-def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tuple[float, float]]:
+def bounds_of(case: Case, ranges: Mapping[str, tuple[object, object]]) -> dict[str, tuple[float, float]]:
     """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
     if not ranges:
         raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
@@ -262,7 +262,7 @@ def bounds_of(case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> dict[str, tu
     return bounds
 
 
-def in_si(case: Case, values: Mapping[str, object]) -> dict[str, Any]:
+def in_si(case: Case, values: Mapping[str, object]) -> dict[str, object]:
     """What a case makes of values of keys: numbers in SI units, everything else as it is. Raises InputError."""
     table = with_values(case.as_tables(), values)
     read = type(case).from_dict(table, folder=case.folder, name="the study").as_tables()
@@ -355,7 +355,7 @@ def _check_some(case: Case, design: Design) -> None:
 
 
 def _readable(
-    case: Case, keys: Mapping[str, str], columns: Mapping[str, tuple[Any, np.ndarray]], faults: Mapping[int, str]
+    case: Case, keys: Mapping[str, str], columns: Mapping[str, tuple[object, np.ndarray]], faults: Mapping[int, str]
 ) -> int:
     """The first case of a list that can be read; the first of all where none of those tried can."""
     count = min(len(values) for _, values in columns.values())

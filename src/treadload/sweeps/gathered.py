@@ -73,7 +73,7 @@ def _dataset(design: Design, columns: Mapping[str, Values], axes: Mapping[str, n
     return xr.Dataset(fields, {**design.coordinates(), **coordinates_of(axes)})
 
 
-def coordinates_of(axes: Mapping[str, np.ndarray]) -> dict[str, Any]:
+def coordinates_of(axes: Mapping[str, np.ndarray]) -> dict[str, object]:
     """Axes as coordinates with units and long names."""
     return {
         dim: (dim, axis, variables.attributes(dim) if dim in variables.VARIABLES else {})

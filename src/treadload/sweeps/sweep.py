@@ -9,7 +9,7 @@ import time
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 import xarray as xr
@@ -87,7 +87,7 @@ class Sweep(BaseResult, group="sweep"):
         return tuple([*warnings, *self._failed()])
 
     @property
-    def stats(self) -> Mapping[str, Any]:
+    def stats(self) -> Mapping[str, object]:
         """How many cases were solved, failed and wait, and the time that they took, s."""
         status = self.dataset["status"].to_numpy()
         names = {"solved": SOLVED, "failed": FAILED, "unsolved": UNSOLVED}
@@ -155,7 +155,7 @@ def varied(design: Design) -> list[str]:
 
 def sweep(
     case: Case,
-    vary: Mapping[str, Any] | Sequence[Mapping[str, Any]] | xr.Dataset | Design,
+    vary: Mapping[str, object] | Sequence[Mapping[str, object]] | xr.Dataset | Design,
     *,
     fields: Sequence[str] = (),
     store: str | os.PathLike[str] | None = None,
@@ -276,7 +276,7 @@ def _tried(data: xr.Dataset, document: Mapping[str, object]) -> None:
             raise InputError(f"a case that failed is not among the {design.count} of the design")
 
 
-def _anchor(case: Case, design: Design) -> dict[str, Any]:
+def _anchor(case: Case, design: Design) -> dict[str, object]:
     """The contact that neighbours start from: the first values of what only shears it.
 
     The same for all of them wherever and in whatever order they are solved, so that the results do not depend on it.

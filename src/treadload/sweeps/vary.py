@@ -53,7 +53,7 @@ def from_texts(case: Case, texts: Sequence[str], *, sample: str = "", seed: int 
     return product(case, {name: _values(case, name, text) for name, text in pairs.items()})
 
 
-def _ends(name: str, text: str) -> tuple[Any, Any]:
+def _ends(name: str, text: str) -> tuple[object, object]:
     parts = [part.strip() for part in text.split(":")]
     if len(parts) != 2 or not all(parts):
         raise InputError(f"a sample needs the low and the high end of {name}, as {name}=0.3:0.9, got {text!r}")
@@ -159,7 +159,7 @@ def _label(cell: Any) -> str:
     return "" if cell is None else str(int(cell) if whole else cell).strip()
 
 
-def _cell(cell: object, unit: str) -> Any:
+def _cell(cell: object, unit: str) -> object:
     if not isinstance(cell, bool | int | float | str):
         # A date, say, which is no value of a case.
         cell = str(cell)
@@ -168,7 +168,7 @@ def _cell(cell: object, unit: str) -> Any:
     return f"{cell!r} {unit}" if unit and unit not in ("-", "1") else cell
 
 
-def _text(path: Path) -> tuple[Sequence[Any], Sequence[tuple[int, Sequence[Any]]]]:
+def _text(path: Path) -> tuple[Sequence[object], Sequence[tuple[int, Sequence[object]]]]:
     table = read_table(path)
     if not table.has_header:
         raise InputError(
@@ -177,7 +177,7 @@ def _text(path: Path) -> tuple[Sequence[Any], Sequence[tuple[int, Sequence[Any]]
     return table.rows[0], list(zip(table.lines[1:], table.rows[1:], strict=True))
 
 
-def _sheet(path: Path) -> tuple[Sequence[Any], Sequence[tuple[int, Sequence[Any]]]]:
+def _sheet(path: Path) -> tuple[Sequence[object], Sequence[tuple[int, Sequence[object]]]]:
     (_, head), *rows = numbered_rows(path)
     width = max((k + 1 for k, cell in enumerate(head) if cell is not None), default=0)
     return head[:width], rows

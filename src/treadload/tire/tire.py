@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, Unpack, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +22,7 @@ from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.cross_section import TreadSection, lateral_obstacle
+from treadload.tire.keywords import BodyKeys, ScanKeys, TireMaterial, Tread
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -41,12 +42,15 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
-Tread = Literal["layer", "ribs"]
+# Why there is no tread = "blocks".
+BLOCKS_ROLL = (
+    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread "
+    "out and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
+)
 RibSides = Literal["free", "filled", "unknown", "none"]
 # Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
 # 20 mm of tread with grooves of 15 mm.
 UNDERTREAD, _THICKEST_UNDERTREAD = 5e-3, 0.1
-TireMaterial = Elastic | Anisotropic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 _INCOMPRESSIBLE = 0.5
@@ -97,7 +101,8 @@ class Tire:
                     "Belt(tread=...)"
                 )
         if self.tread not in get_args(Tread):
-            raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}')
+            remedy = f"; {BLOCKS_ROLL}" if self.tread == "blocks" else ""
+            raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}{remedy}')
         if self.tread == "ribs":
             if self.belt is None:
                 raise InputError(
@@ -139,15 +144,11 @@ class Tire:
         *,
         units: str | Mapping[str, str] | None = None,
         decimal: Literal[".", ","] | None = None,
-        material: TireMaterial | None = None,
-        inflation_pressure: float | None = None,
-        name: str = "",
-        belt: Belt | None = None,
-        tread: Tread = "layer",
-        undertread: float | None = None,
+        **body: Unpack[BodyKeys],
     ) -> Tire:
         """Tire of a map of its initial gap.
 
+        body: material=, inflation_pressure=, name=, belt=, tread= and undertread= of `Tire`.
         gap: (ny, nx) in m, distance of the tread from the plane it touches, curvature included; NaN where there is no
         material. Its minimum is shifted to 0, so heights above any horizontal plane will do. Or a DataArray, or the
         path of a NetCDF file (variable `initial_gap` or the only 2-D one), over y and x, whose attributes `units` are
@@ -162,68 +163,46 @@ class Tire:
         cell = _cell(spacing)
         if isinstance(gap, str | PathLike):
             surface = read_height_map(Path(gap), cell, units, decimal)
-            name = name or Path(gap).name
-            return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
+            named: BodyKeys = {**body, "name": body.get("name") or Path(gap).name}
+            return cls(surface, **named)
         units_of = asked_units(units)
         if hasattr(gap, "dims") and hasattr(gap, "coords"):
             labelled: Any = gap
-            surface = of_variable(labelled, cell, units_of)
-            return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
+            return cls(of_variable(labelled, cell, units_of), **body)
         if cell is None:
             raise InputError("a height map needs the spacing of its cells in m, e.g. spacing=3e-3")
-        surface = centred_height_map(in_metres(real_array(gap, "a height map"), units_of), cell)
-        return cls(surface, material, inflation_pressure, name, belt, tread, undertread)
+        return cls(centred_height_map(in_metres(real_array(gap, "a height map"), units_of), cell), **body)
 
     @classmethod
     def from_profile(
         cls,
         profile: TreadProfile | str,
-        *,
-        material: TireMaterial | None = None,
-        inflation_pressure: float | None = None,
-        name: str = "",
-        belt: Belt | None = None,
-        tread: Tread = "layer",
-        undertread: float | None = None,
+        **body: Unpack[BodyKeys],
     ) -> Tire:
         """Tire of a parametric tread.
 
-        profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5". tread: of a belt, "ribs" for
+        profile: a TreadProfile, or the name of one in the catalogue, e.g. "315/80R22.5". body: material=,
+        inflation_pressure=, name=, belt=, tread= and undertread= of `Tire`. tread: of a belt, "ribs" for
         ribs with free sides between the grooves, "layer" for rubber without grooves. undertread: as in `Tire`.
         Raises InputError when the catalogue does not have it, and for ribs of lateral or too deep grooves.
         """
         shape = tread_named(profile) if isinstance(profile, str) else profile
         if not isinstance(shape, TreadProfile):
             raise InputError(f"profile must be a TreadProfile or the name of one, got {profile!r}")
-        surface = ProfileSurface(shape)
-        return cls(surface, material, inflation_pressure, name or shape.name, belt, tread, undertread)
+        named: BodyKeys = {**body, "name": body.get("name") or shape.name}
+        return cls(ProfileSurface(shape), **named)
 
     @classmethod
     def from_scan(
         cls,
         path: str | PathLike[str],
-        *,
-        units: str | None = None,
-        nominal_diameter: float | None = None,
-        rotation: float = 0.0,
-        camber: float = 0.0,
-        revolve: bool | Literal["auto"] = "auto",
-        fill_holes: bool | Literal["auto"] = "auto",
-        smooth: Literal[False, "auto"] | float = False,
-        outliers: Literal["remove", "refuse", "keep"] = "remove",
-        roundness: float = 0.02,
-        scale: float | None = None,
-        material: TireMaterial | None = None,
-        inflation_pressure: float | None = None,
-        name: str = "",
-        belt: Belt | None = None,
-        tread: Tread = "layer",
-        undertread: float | None = None,
+        **how: Unpack[ScanKeys],
     ) -> Tire:
         """Tire of a scan in any pose, of the whole turn or of a part of it from 45° on.
 
         path: a mesh, OBJ, PLY, STL, GLB or OFF, a cloud of points, PLY, text (XYZ, TXT, CSV, ASC, PTS), LAS, LAZ
-        or E57, or the TOML of a laser's lines. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter:
+        or E57, or the TOML of a laser's lines. how: material=, inflation_pressure=, name=, belt=, tread= and
+        undertread= of `Tire`, and what follows. units: of the file, "m", "cm", "mm" or "inch"; nominal_diameter:
         outer, m; scale: m per unit of the file, a known length over its measure there; without any, the unit is the
         one that gives a diameter between 0.4 and 1.6 m. rotation: rad, brings the tread that much ahead down to the
         road. camber: rad, positive when the top leans to the right.
@@ -242,20 +221,9 @@ class Tire:
         from treadload.tire.scan.options import ScanOptions
         from treadload.tire.scan.pipeline import read_scan
 
-        options = ScanOptions(
-            units=units,
-            nominal_diameter=nominal_diameter,
-            rotation=rotation,
-            camber=camber,
-            revolve=revolve,
-            fill_holes=fill_holes,
-            smooth=smooth,
-            outliers=outliers,
-            roundness=roundness,
-            scale=scale,
-        )
-        surface = read_scan(Path(path), options)
-        return cls(surface, material, inflation_pressure, name or Path(path).stem, belt, tread, undertread)
+        body: Any = {key: how.pop(key) for key in BodyKeys.__annotations__ if key in how}  # type: ignore[misc]
+        surface = read_scan(Path(path), ScanOptions(**how))  # type: ignore[misc]
+        return cls(surface, **{**body, "name": body.get("name") or Path(path).stem})
 
     @property
     def carcass(self) -> TireMaterial | InflatedBelt:

@@ -93,7 +93,7 @@ class TreadProfile:
         return cls.from_dict(parse_toml(text_of(path, "the TOML file of a tread profile"), repr(path.name)))
 
     @classmethod
-    def from_dict(cls, table: Mapping[str, Any]) -> TreadProfile:
+    def from_dict(cls, table: Mapping[str, object]) -> TreadProfile:
         """Profile of plain tables, as to_dict gives them; text carries its unit. Raises InputError."""
         # pydantic is loaded when a table is read, not before.
         from treadload.read import read
@@ -101,7 +101,7 @@ class TreadProfile:
         profile: TreadProfile = read(cls, table, "tread profile")
         return profile
 
-    def to_dict(self) -> dict[str, Any]:
+    def to_dict(self) -> dict[str, object]:
         """Plain tables of numbers and text; from_dict reads them back."""
         return {key: value for key, value in _plain_tables(asdict(self)).items() if value not in ("", [])}
 

@@ -92,7 +92,9 @@ def _interpolated() -> Iterator[Check]:
         solve_passages(Design(tire, road, traffic, climate, _CRITERIA, spacing=12e-3, tolerance=tolerance), workers=1)
         for tolerance in (0.0, _TOLERANCE)
     )
-    error = float((abs(sparse.readings - exact.readings).max("y") / exact.readings.max("y")).max())
+    # Of the cycle that does most; those after it change places where two do the same.
+    readings, exact_readings = sparse.readings.isel(turn=0), exact.readings.isel(turn=0)
+    error = float((abs(readings - exact_readings).max("y") / exact_readings.max("y")).max())
     group, source = "life over a year", "all temperatures solved"
     yield absolute(
         group, "error on the heavy class, as the result states it", sparse.interpolation_error, 0, _TOLERANCE, source

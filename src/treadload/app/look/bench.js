@@ -62,7 +62,7 @@ window.addEventListener("resize", () => {
 
 // The line of the slice. What lies along it is drawn here where the page holds the fields, else it is asked for.
 const held = {};
-let waiting = null, along = "x", at = 0;
+let waiting = null, along = "x", at = 0, lain = null;
 function hold(name, fields) {
   if (name === "profile" && !fields) delete held.section;
   held[name] = fields;
@@ -83,12 +83,15 @@ function slice(line) {
   waiting = line;
   return true;
 }
-function moved(line) {
+function moved(wanted) {
+  const line = window.treadloadWithin(maps(), wanted, lain);
+  if (maps()) window.treadloadLine(maps(), line);
   lies(line);
   emitEvent("line", { ...line, drawn: slice(line) });
 }
 // The slider and the number beside it follow the line, whoever has put it.
 function lies({ x0, y0, x1, y1 }) {
+  lain = { x0, y0, x1, y1 };
   const slider = document.getElementById("place"), flat = Math.abs(y1 - y0) < 1e-6, upright = Math.abs(x1 - x0) < 1e-6;
   if (!slider) return;
   if (flat || upright) {
@@ -102,7 +105,6 @@ function lies({ x0, y0, x1, y1 }) {
 window.treadloadPut = (change) => {
   ({ along, at } = { along, at, ...change });
   const half = 160, ends = along === "x" ? { x0: -half, y0: at, x1: half, y1: at } : { x0: at, y0: -half, x1: at, y1: half };
-  if (maps()) window.treadloadLine(maps(), ends);
   moved(ends);
 };
 

@@ -27,7 +27,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -228,7 +227,7 @@ class Body(ABC):
         """Refuse shear on a surface that drifts under it without limit. Raises InputError."""
 
     @property
-    def stats(self) -> Mapping[str, Any]:
+    def stats(self) -> Mapping[str, object]:
         """What was approximated, for the statistics of a contact."""
         return {}
 
@@ -320,7 +319,7 @@ class Sum(Body):
             part.check_shear()
 
     @property
-    def stats(self) -> Mapping[str, Any]:
+    def stats(self) -> Mapping[str, object]:
         """Of all of them."""
         return {name: value for part in self.parts for name, value in part.stats.items()}
 

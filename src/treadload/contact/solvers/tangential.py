@@ -84,7 +84,7 @@ def solve_tangential(
         # A rigid slip that is known now is not an unknown, whatever it was in the start.
         unknown = [force is not None for force in forces]
         q, xi = start.shear[:, rows, columns], np.where(unknown, start.rigid, 0.0)
-    elif (g.shape[1] if small.has_strips else 0 if striped else min(g.shape)) >= _COARSEST:
+    elif (small.has_strips and g.shape[1] >= _COARSEST) or (not striped and min(g.shape) >= _COARSEST):
         q, xi = _start(small, g, w, forces, rolls, axes, max(_START_TOLERANCE, tolerance))
     else:
         # Without shear the cells stick, and the first step is that of full adhesion; a force that is known takes an

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, get_args
+from typing import Any, Literal, TypedDict, Unpack, get_args
 
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade, TrafficClass
@@ -129,18 +129,24 @@ def law_of_layer(
     return kind(**arguments)
 
 
+class FrenchConstants(TypedDict, total=False):
+    """Keys of the French laws of bound layers: b, SN, k_c, Sh and the modulus of what lies below."""
+
+    slope: Number | None
+    scatter: Number | None
+    calibration: Number | None
+    thickness_scatter: Length | None
+    platform_modulus: Modulus | None
+
+
 @CRITERIA.register("french-bituminous")
 def _bituminous(
     at: OnLayer,
     risk: Share | None = None,
     epsilon_6: Strain | None = None,
-    slope: Number | None = None,
-    scatter: Number | None = None,
-    calibration: Number | None = None,
     thickness: Length | None = None,
-    thickness_scatter: Length | None = None,
-    platform_modulus: Modulus | None = None,
     traffic_class: TrafficClass | None = None,
+    **constants: Unpack[FrenchConstants],
 ) -> FrenchBituminous | Callable[[float], FrenchBituminous]:
     """Allowable extension at the bottom of bituminous layers by the French method.
 
@@ -153,23 +159,22 @@ def _bituminous(
     """
     mix = at.material
     arguments = {
-        "risk": at.risk("bituminous", risk, traffic_class), "epsilon_6": epsilon_6, "slope": slope,
-        "scatter": scatter, "calibration": calibration,
-        "thickness": thickness, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
+        "risk": at.risk("bituminous", risk, traffic_class), "epsilon_6": epsilon_6, "thickness": thickness,
+        **dict.fromkeys(FrenchConstants.__annotations__), **constants,
     }  # fmt: skip
     if isinstance(mix, Mix):
         arguments = {**arguments, **at.with_own(arguments, "epsilon_6", "slope", "scatter", "calibration")}
-    if platform_modulus is None:
+    if constants.get("platform_modulus") is None:
         arguments["platform_modulus"] = at.platform_modulus
     if thickness is None:
         # Nothing but Sh depends on it.
-        has_scatter = thickness_scatter is not None
+        has_scatter = constants.get("thickness_scatter") is not None
         arguments["thickness"] = at.road.layers[at.number].thickness if has_scatter else at.asphalt()
     at.needed(arguments, "risk", "epsilon_6", "slope", "scatter", "thickness", "calibration")
-    constants: dict[str, Any] = arguments
+    numbers: dict[str, Any] = arguments
     if not isinstance(mix, Mix):
-        return FrenchBituminous(**constants)
-    return lambda temperature: FrenchBituminous(**constants, modulus_ratio=mix.modulus_ratio(temperature))
+        return FrenchBituminous(**numbers)
+    return lambda temperature: FrenchBituminous(**numbers, modulus_ratio=mix.modulus_ratio(temperature))
 
 
 @CRITERIA.register("french-hydraulic")
@@ -177,13 +182,9 @@ def _hydraulic(
     at: OnLayer,
     risk: Share | None = None,
     sigma_6: Modulus | None = None,
-    slope: Number | None = None,
-    scatter: Number | None = None,
-    calibration: Number | None = None,
     joints: Number | None = None,
-    thickness_scatter: Length | None = None,
-    platform_modulus: Modulus | None = None,
     traffic_class: TrafficClass | None = None,
+    **constants: Unpack[FrenchConstants],
 ) -> FrenchHydraulic:
     """Allowable tension of layers treated with a hydraulic binder by the French method.
 
@@ -193,18 +194,17 @@ def _hydraulic(
     mix. platform_modulus: of what lies below; left out, that of an unbound layer of the catalogue there.
     """
     arguments = {
-        "risk": at.risk("hydraulic", risk, traffic_class), "sigma_6": sigma_6, "slope": slope, "scatter": scatter,
-        "calibration": calibration,
-        "joints": joints, "thickness_scatter": thickness_scatter, "platform_modulus": platform_modulus,
+        "risk": at.risk("hydraulic", risk, traffic_class), "sigma_6": sigma_6, "joints": joints,
+        **dict.fromkeys(FrenchConstants.__annotations__), **constants,
     }  # fmt: skip
     if isinstance(at.material, HydraulicMix):
         names = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
         arguments = {**arguments, **at.with_own(arguments, *names)}
-    if platform_modulus is None:
+    if constants.get("platform_modulus") is None:
         arguments["platform_modulus"] = at.platform_modulus
     at.needed(arguments, "risk", "sigma_6", "slope", "scatter", "calibration")
-    constants: dict[str, Any] = {name: value for name, value in arguments.items() if value is not None}
-    return FrenchHydraulic(**constants)
+    numbers: dict[str, Any] = {name: value for name, value in arguments.items() if value is not None}
+    return FrenchHydraulic(**numbers)
 
 
 @CRITERIA.register("french-subgrade")

@@ -15,6 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any
 
 import numpy as np
@@ -271,32 +272,32 @@ class _Search:
     energy: float
 
 
-def _dot(xp: Any, first: Array, second: Array) -> float:
+def _dot(xp: ModuleType, first: Array, second: Array) -> float:
     return float(xp.tensordot(first, second, axes=2))
 
 
-def _largest(xp: Any, v: Array) -> float:
+def _largest(xp: ModuleType, v: Array) -> float:
     return max(float(xp.max(v)), -float(xp.min(v)))
 
 
-def _mean(xp: Any, v: Array, mask: BoolArray) -> float:
+def _mean(xp: ModuleType, v: Array, mask: BoolArray) -> float:
     chosen = xp.asarray(mask, dtype=v.dtype)
     return float(xp.sum(v * chosen)) / float(xp.sum(chosen))
 
 
-def _least(xp: Any, v: Array, mask: BoolArray) -> float:
+def _least(xp: ModuleType, v: Array, mask: BoolArray) -> float:
     """The smallest of the masked numbers; infinity of none."""
     return float(xp.min(xp.where(mask, v, xp.full_like(v, xp.inf))))
 
 
-def _violation(xp: Any, separation: Array, active: BoolArray, material: BoolArray) -> float:
+def _violation(xp: ModuleType, separation: Array, active: BoolArray, material: BoolArray) -> float:
     nothing = xp.zeros_like(separation)
     outside = -float(xp.min(xp.where(material, separation, nothing)))
     inside = float(xp.max(xp.where(active, separation, nothing)))
     return max(inside, outside, 0.0)
 
 
-def _bounding_box(xp: Any, mask: BoolArray) -> tuple[slice, slice]:
+def _bounding_box(xp: ModuleType, mask: BoolArray) -> tuple[slice, slice]:
     """Slices around the masked cells, with a margin and of lengths that are fast to transform."""
     rows, columns = (_stretch(fft.to_host(xp.any(mask, axis=axis))) for axis in (1, 0))
     return rows, columns

@@ -8,11 +8,10 @@ these with depths, see `kernels.eigenstrain.potentials`. An end of the cuboid fa
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, Numbers
 from treadload.kernels.eigenstrain.potentials import FOURTH, Coefficients
 from treadload.kernels.half_space.waves import Waves
 
@@ -20,7 +19,7 @@ Difference = Callable[[Array], Array]
 """Functions at corners (..., nY, nX) → their differences between the two corners of each cell, along both axes."""
 
 
-def derivatives(x: Any, y: Any, z: Any) -> Array:
+def derivatives(x: Numbers, y: Numbers, z: Numbers) -> Array:
     """Corner functions of the fourth derivatives of Ψ in the order of `FOURTH`, (15, ...), without unit.
 
     x, y, z: from a corner, m, arrays that broadcast. On the plane of a face: the mean of both sides; on the line
@@ -85,7 +84,7 @@ def displacement_kernels(x: Array, y: Array, edges: Array, of: Coefficients, cel
     return result
 
 
-def _arctan(rise: Any, run: Any) -> Any:
+def _arctan(rise: Numbers, run: Numbers) -> Numbers:
     """atan(rise / run), 0 where the run is."""
     rise, run = np.broadcast_arrays(rise, run)
     return np.arctan(np.divide(rise, run, out=np.zeros(run.shape), where=run != 0))

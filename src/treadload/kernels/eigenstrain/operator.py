@@ -352,13 +352,13 @@ def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], 
 
 def _gathered(
     rows: Rows,
-    transformed: Callable[[Array], Any],
+    transformed: Callable[[Array], Array],
     grid: Grid,
     depths: int,
     count: int,
     waves: tuple[int, int],
-    kind: np.dtype[Any],
-) -> Any:
+    kind: np.dtype[np.generic],
+) -> Array:
     """Matrices (waves along y, along x, rows · depths, 6 layers), a depth at a time."""
     layers = len(grid.depths)
     matrices = np.empty((*waves, count, depths, 6, layers), kind)

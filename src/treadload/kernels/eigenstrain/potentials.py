@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, Numbers
 from treadload.kernels.half_space.waves import POWERS
 from treadload.kernels.layers.layered import Stack, transfer
 
@@ -103,7 +103,7 @@ def _full(nu: float) -> Array:
     return stress
 
 
-def _along(c: Array, s: Array, source: float, a: int, b: int, n: int) -> Any:
+def _along(c: Array, s: Array, source: float, a: int, b: int, n: int) -> Numbers:
     """∂xᵃ ∂yᵇ ∂zⁿ of -2π (1 + |ζ|) exp(-|ζ|), R in waves of k = 1, at z = 0 above a source, (directions,)."""
     # (1 - ζ) exp(ζ) of ζ = z - c < 0; each derivative takes one more from the constant.
     along = (1 - n + source) * math.exp(-source)
@@ -123,7 +123,7 @@ def _moved_by_source(nu: float, c: Array, s: Array) -> list[Any]:
     for source in (0.0, 1.0):
         moved = np.zeros((3, 6, len(c)), complex)
 
-        def third(*axes: int, source: float = source) -> Any:
+        def third(*axes: int, source: float = source) -> Numbers:
             return _along(c, s, source, axes.count(0), axes.count(1), axes.count(2))
 
         for i in range(3):
@@ -138,7 +138,7 @@ def _moved_by_source(nu: float, c: Array, s: Array) -> list[Any]:
     return results
 
 
-def _surface_response(nu: float, c: Array, s: Array) -> tuple[Any, Any]:
+def _surface_response(nu: float, c: Array, s: Array) -> tuple[Numbers, Numbers]:
     """What taking tractions xz, yz and zz off the surface does: stress times e^z at z = 0 and 1, displacement at 0.
 
     Stress (2, 6, 3, directions), displacement (3, 3, directions), in waves of k = 1 and a shear modulus of 1.
@@ -174,7 +174,7 @@ def _surface_response(nu: float, c: Array, s: Array) -> tuple[Any, Any]:
     return stress, moved
 
 
-def _fitted(values: Any, c: Array, s: Array) -> Array:
+def _fitted(values: Numbers, c: Array, s: Array) -> Array:
     """Coefficients of `POWERS` (..., 9) of functions of the direction (..., directions), odd ones times -1."""
     waves = np.array([c**a * s**b for a, b in POWERS]).T
     even, odd = np.linalg.pinv(waves[:, :5]), np.linalg.pinv(waves[:, 5:])

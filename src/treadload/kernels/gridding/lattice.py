@@ -217,7 +217,7 @@ def on_lattice(
     x0: float,
     y0: float,
     wanted: tuple[Indices | slice, Indices | slice] = (slice(None), slice(None)),
-    spectra: dict[tuple[Any, ...], list[Spectrum]] | None = None,
+    spectra: dict[tuple[object, ...], list[Spectrum]] | None = None,
 ) -> Array:
     """Fields on points spaced like the cells, by zero-padded FFT convolution.
 

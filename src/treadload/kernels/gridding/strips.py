@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
 
 import numpy as np
 
@@ -90,7 +89,7 @@ class Strips:
         return list(moved.swapaxes(0, 1))
 
     def _blocks(
-        self, by: tuple[int, ...], of: tuple[int, ...], real: np.dtype[np.floating[Any]]
+        self, by: tuple[int, ...], of: tuple[int, ...], real: np.dtype[np.floating]
     ) -> list[tuple[IntArray, Array]]:
         """Rows (groups, n) of groups of as many rows, and their blocks (waves, groups, of n, by n) in a precision."""
         key = by, of, real.char

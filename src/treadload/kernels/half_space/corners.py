@@ -20,7 +20,7 @@ from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.gridding.lattice import Corner
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _UX, _UY, _UZ = range(9)
@@ -30,7 +30,7 @@ _P, _QX, _QY = range(3)
 SNAP = 1e-9
 
 
-def is_surface(z: Array | float, dx: float, dy: float) -> Any:
+def is_surface(z: Array | float, dx: float, dy: float) -> bool | BoolArray:
     """Whether a depth is the surface."""
     return z <= SNAP * min(dx, dy)
 
@@ -198,7 +198,7 @@ def _asinh(x: Array, edge: Array, r: Array) -> Array:
     return values
 
 
-def _angle(sine: Any, cosine: Any) -> Any:
+def _angle(sine: Array, cosine: Array) -> Array:
     """atan(sine / cosine), 0 where both are zero; no branch is met while the real part of the depth is > 0.
 
     Real cosines are >= 0, and zero only where the sine is.
@@ -207,7 +207,7 @@ def _angle(sine: Any, cosine: Any) -> Any:
     return np.arctan(ratio)
 
 
-def at_nodes(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: complex = 1.0) -> _Nodes:
+def at_nodes(x: Array, y: Array, z: Array | float, dx: float, dy: float, stretch: complex = 1.0) -> _Nodes:
     """The integrals at (x, y, z), m, less what second differences take away; arguments as in `at_corners`."""
     c = at_corners(x, y, z, dx, dy, stretch)
     x, y, z, r, log_x, log_y, log_r = c.x, c.y, c.z, c.r, c.log_x, c.log_y, c.log_r

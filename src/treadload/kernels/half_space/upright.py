@@ -24,6 +24,7 @@ from typing import Any
 
 import numpy as np
 
+from treadload.kernels.arrays import Numbers
 from treadload.kernels.gridding.lattice import Corner
 from treadload.kernels.half_space.corners import fields
 from treadload.kernels.layers.upright import Upright
@@ -147,7 +148,7 @@ class Modes:
         return cls(decay, sheared, pressed, along, across, out, down, transverse, upright.half_space(1.0, nu)[3])
 
 
-def _quotient(middle: float, apart: float) -> tuple[Any, Any]:
+def _quotient(middle: float, apart: float) -> tuple[Numbers, Numbers]:
     """Points and weights of f[s1, s2], s = middle ± √apart; of a complex pair one point, whose real part counts."""
     if abs(apart) > (_NEAR * middle) ** 2:
         half = np.sqrt(complex(apart))

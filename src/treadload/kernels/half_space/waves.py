@@ -23,6 +23,8 @@ from typing import Any
 
 import numpy as np
 
+from treadload.kernels.arrays import Array, Numbers
+
 POWERS = ((4, 0), (3, 1), (2, 2), (1, 3), (0, 4), (3, 0), (2, 1), (1, 2), (0, 3))
 """Powers of cosine and sine, in the order of all results here: five even functions, four odd ones."""
 
@@ -106,25 +108,25 @@ class Waves:
         return self.distance + self.z
 
     @cached_property
-    def _turns(self) -> tuple[Any, Any]:
+    def _turns(self) -> tuple[Numbers, Numbers]:
         """atan(Y/X) - atan(Y Z / X R), and with X and Y exchanged; as one angle, which has no quotient of zeros."""
         x, y, z, r = self.x, self.y, self.z, self.distance
         rise = x * y * ((x * x + y * y) / self._t)
         return _angle(rise, x * x * r + y * y * z), _angle(rise, y * y * r + x * x * z)
 
     @cached_property
-    def _logs(self) -> tuple[Any, Any]:
+    def _logs(self) -> tuple[Numbers, Numbers]:
         """asinh(X / √(Y² + Z²)), asinh(Y / √(X² + Z²))."""
         x, y, z = self.x, self.y, self.z
         return np.arcsinh(x / np.sqrt(y * y + z * z)), np.arcsinh(y / np.sqrt(x * x + z * z))
 
 
-def _angle(rise: Any, run: Any) -> Any:
+def _angle(rise: Array, run: Array) -> Array:
     """atan(rise / run) where the run has a positive real part or both vanish."""
     if np.isrealobj(rise):
         return np.arctan2(rise, run)
     return np.arctan(rise / run)
 
 
-def _stacked(*functions: Any) -> Any:
+def _stacked(*functions: Numbers) -> Numbers:
     return _TURN * np.stack(np.broadcast_arrays(*functions))

@@ -31,8 +31,10 @@ from treadload.kernels.layers.wavenumbers import Table, gauss, tabulated
 _CALM, _STRIDE = 0.02, 5.0
 # The same among the layers' own lengths: their poles lie off the axis by half their distance from zero.
 _RATIO = 3.0
-# Most radians that half a panel turns, and the points that each takes besides.
-_PHASE, _MORE = 24.0, 0.6
+# Points of a panel for each radian that half of it turns, besides those of its own.
+_MORE = 0.6
+# Waves that a blur has faded to (1 + 4.5²/2) e^(-4.5²/2), 4e-4, are left out.
+_FADED = 4.5
 # Wavenumbers of a block: keeps a block's fields, some 30 numbers for each, near the cache.
 _BLOCK = 30_000
 # Functions of |k| are tabulated from a power of ten below the smallest that is asked for, so that tables serve again.
@@ -52,7 +54,10 @@ class Accuracy:
 
     fall: they are cut where they have fallen to e^-fall. smallest: panels of wavenumbers start at this over the
     length of the problem. least_points, usual_points: of a panel below all lengths, and among those of the layers.
-    precision: in which waves, and the half-space split off, are multiplied and added up.
+    precision: in which waves, and the half-space split off, are multiplied and added up. phase: radians that half a
+    panel turns at most.
+    blur: deviation, m, of a bell over which fields are averaged, 0 for none; its width is compensated, so that fields
+    that vary over lengths L are off by (blur/L)^4 alone, and waves end where it has faded.
     """
 
     fall: float
@@ -60,6 +65,20 @@ class Accuracy:
     least_points: int
     usual_points: int
     precision: type[np.floating[Any]] = np.float64
+    blur: float = 0.0
+    phase: float = 24.0
+
+    @property
+    def cut(self) -> float:
+        """The largest wavenumber that the blur leaves, 1/m."""
+        return _FADED / self.blur if self.blur else math.inf
+
+    def blurred(self, nodes: Array, weights: Array) -> tuple[Array, Array]:
+        """Nodes and weights along one axis with what the blur leaves of each wave: (1 + s²k²/2) exp(-s²k²/2)."""
+        if not self.blur:
+            return nodes, weights
+        faded = 0.5 * (self.blur * nodes) ** 2
+        return nodes, weights * (1 + faded) * np.exp(-faded)
 
 
 # Errors by a field's largest value, measured: 1e-11 of stress and strain, 1e-9 of displacement, which goes as 1/k.
@@ -71,6 +90,8 @@ FULL = Accuracy(33.0, 1e-7, 8, 10)
 READING = Accuracy(28.0, 1e-4, 4, 6, np.float32)
 # The same with double numbers, where the largest of many values is looked for.
 SEARCH = replace(READING, precision=np.float64)
+# The basin around wheels, beyond three deviations of what they load: bending alone, with no edge of a rib.
+BASIN = Accuracy(28.0, 1e-3, 3, 5, np.float32, blur=0.028, phase=72.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -135,7 +156,7 @@ def rule(limit: float, reach: float, length: float, accuracy: Accuracy = FULL) -
     limit: largest wavenumber, 1/m. reach: largest distance between a loaded and an output point along this axis,
     m. length: the largest length in the field, m: the reach or the characteristic length of the layers.
     """
-    widest = 2 * _PHASE / max(reach, 1e-12)
+    widest = 2 * accuracy.phase / max(reach, 1e-12)
     low, nodes, weights = 0.0, [], []
     while low < limit:
         calm = low * length < _CALM
@@ -167,7 +188,7 @@ def synthesise_cells(
     across: tuple[Array, Array],
     at: Points | None = None,
     components: Sequence[int] = range(9),
-    precision: type[np.floating[Any]] = np.float64,
+    precision: type[np.floating] = np.float64,
 ) -> Array:
     """Stress and displacement of elastic layers under gridded loads.
 

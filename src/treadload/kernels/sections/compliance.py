@@ -24,17 +24,18 @@ _SHIFT = 0.8
 _ALIASES, _UNSEEN = 2, 1e-20
 
 
-def face_compliance(section: Section, poisson: float) -> FaceTable:
+def face_compliance(section: Section, poisson: float, waves: Array | None = None) -> FaceTable:
     """Displacement of the face of a section of E = 1 Pa under waves of load.
 
-    poisson: ν, below ½. Raises ValueError for one that is not.
+    poisson: ν, below ½. waves: k ≥ 0, 1/m; 27 that a table interpolates between if left out. Raises ValueError for
+    a ν that is not below ½.
     """
     if not -1 < poisson < 0.5:
         raise ValueError(f"Poisson's ratio must lie between -1 and below 0.5, got {poisson:g}")
     mesh = section.mesh
     shear_modulus = 0.5 / (1 + poisson)
     lame = poisson / ((1 + poisson) * (1 - 2 * poisson))
-    waves = _WAVES / section.height
+    waves = _WAVES / section.height if waves is None else waves
     return FaceTable(section, poisson, waves, _swept(mesh, shear_modulus, lame, waves))
 
 

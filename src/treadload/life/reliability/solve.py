@@ -10,13 +10,14 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import xarray as xr
 from scipy.special import ndtr
 
 from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter, check_risks
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
@@ -239,7 +240,7 @@ def reliability_dataset(
     fitted_to: Sequence[Fit],
     risks: tuple[float, ...],
     sampling: MonteCarlo,
-) -> Any:
+) -> xr.Dataset:
     """The dataset of a reliability, without what was solved for it. fitted_to: each criterion."""
     traffic, chosen = life.traffic, [fit.number for fit in fitted_to]
     surfaces, powers = [fit.surface for fit in fitted_to], np.array([fit.power for fit in fitted_to])

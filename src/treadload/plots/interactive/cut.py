@@ -5,14 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.largest import index_of_largest
 from treadload.plots.interactive.drawing import Trace, figure
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.layers import Layers
@@ -20,6 +21,9 @@ from treadload.plots.kit.plan import DEPTH_LABEL, KPA, MM, Plan, edges, fields_o
 from treadload.plots.kit.shown import shown
 from treadload.plots.kit.style import signed
 from treadload.plots.response import VARIABLE
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 # Points on a line: two a cell, and no more.
 _MOST_POINTS = 1200
@@ -51,6 +55,18 @@ class Cut:
         plan = Plan.of(fields_of(source))
         at = _largest(source)[0] if x is None else x
         return cls((at, plan.y_edges[0] / MM), (at, plan.y_edges[-1] / MM))
+
+    def within(self, source: Source) -> Cut:
+        """The line with each end inside the outer edges of a map; through its largest value where nothing is left."""
+        plan = Plan.of(fields_of(source))
+        first, last = (
+            tuple(
+                float(min(max(at, side[0] / MM), side[-1] / MM))
+                for at, side in zip(end, (plan.x_edges, plan.y_edges), strict=True)
+            )
+            for end in (self.start, self.end)
+        )
+        return type(self).along(source) if first == last else Cut((first[0], first[1]), (last[0], last[1]))
 
     @property
     def length(self) -> float:
@@ -123,7 +139,7 @@ def profiles(
     overlaid: Mapping[str, Source] | None = None,
     names: Mapping[str, str] | None = None,
     theme: str | Theme = "light",
-) -> Any:
+) -> Figure:
     """Profiles along a line, as a Figure of plotly.
 
     source: a contact (pressure, shear, friction times pressure, cell by cell, kPa) or a response (largest extension
@@ -151,7 +167,7 @@ def depth_slice(
     theme: str | Theme = "light",
     height: float = _HEIGHT,
     whole: bool = False,
-) -> Any:
+) -> Figure:
     """A vertical section of a response below a line, as a Figure of plotly, depth down the page in true scale.
 
     response: over (depth, y, x), or over (depth, point) where the points follow a line. cut: of a map of two
@@ -311,7 +327,7 @@ def _curve(
     return trace
 
 
-def _profile_layout(label: str, unit: str) -> dict[str, Any]:
+def _profile_layout(label: str, unit: str) -> dict[str, object]:
     return {
         "height": _HEIGHT, "margin": {"l": 62, "r": 18, "t": 40, "b": 50}, "hovermode": "x unified",
         "showlegend": True, "legend": {"orientation": "h", "x": 0, "y": 1.02, "yanchor": "bottom"},
@@ -326,8 +342,7 @@ def _largest(source: Source) -> tuple[float, float]:
     for name in ("pressure", *VARIABLE.values(), "extension_strain"):
         if name in data:
             sheet = data.isel(depth=0) if "depth" in data[name].dims else data
-            values = np.nan_to_num(plane(sheet, name), nan=-np.inf)
-            row, column = np.unravel_index(int(values.argmax()), values.shape)
+            row, column = index_of_largest(plane(sheet, name))
             return float(data["x"][column]), float(data["y"][row])
     return float(data["x"].mean()), float(data["y"].mean())
 
@@ -341,7 +356,7 @@ def _step(data: xr.Dataset) -> float:
     return Plan.of(data).cell / MM
 
 
-def _between(centres: Array, at: Array) -> tuple[Any, Array]:
+def _between(centres: Array, at: Array) -> tuple[IntArray, Array]:
     """Number of the centre below, and the share of the way to the next."""
     if len(centres) == 1:
         return np.zeros(np.shape(at), dtype=int), np.zeros(np.shape(at))

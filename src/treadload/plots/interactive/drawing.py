@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from textwrap import wrap
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from treadload.plots.interactive.field import Field
 from treadload.plots.interactive.theme import Theme, colour_scale, template
 from treadload.plots.kit.plan import X_LABEL, Y_LABEL, Plan, borders
 
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
+
 Trace = dict[str, Any]
 # Head of an arrow: share of its length, and half its width over its length.
 _HEAD, _WIDE = 0.38, 0.55
@@ -22,15 +25,15 @@ _LETTER = 7.6
 _LINE = {"contact": ("muted", 1.0), "stick": ("stick", 2.0), "slip": ("slip", 1.6), "measured": ("ink", 2.2)}
 
 
-def figure(traces: Sequence[Trace], layout: dict[str, Any], theme: Theme) -> Any:
+def figure(traces: Sequence[Trace], layout: dict[str, Any], theme: Theme) -> Figure:
     """A Figure of plotly. Raises InputError where plotly is not installed."""
     try:
-        from plotly.graph_objects import Figure
+        from plotly import graph_objects
     except ImportError as error:
         raise InputError(
             f"interactive figures need plotly, which is not installed; {how_to_install('app')}, or draw with .plot"
         ) from error
-    return Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
+    return graph_objects.Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
 
 
 def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, Any]) -> Trace:
@@ -103,7 +106,7 @@ def marks(places: Sequence[tuple[float, float, str]], axes: tuple[str, str], the
     }  # fmt: skip
 
 
-def plan_axes(number: int, plan: Plan, domain: tuple[float, float, float, float]) -> dict[str, Any]:
+def plan_axes(number: int, plan: Plan, domain: tuple[float, float, float, float]) -> dict[str, object]:
     """Axes of the map of a number, from 1, seen from above at true scale and linked to the first.
 
     domain: left, right, bottom, top of the page, 0 to 1.
@@ -125,7 +128,7 @@ def plan_axes(number: int, plan: Plan, domain: tuple[float, float, float, float]
 
 def heading(
     text: str, domain: tuple[float, float, float, float], theme: Theme, lift: float, room: float
-) -> dict[str, Any]:
+) -> dict[str, object]:
     """A title flush left above a part of the page, in two lines at most within the room; pixels, as lift is."""
     lines = wrap(text, max(1, int(room / _LETTER)), max_lines=2, placeholder=" …")
     short = "<br>".join(lines)
@@ -153,7 +156,7 @@ def _shadow(theme: Theme) -> str:
     return ", ".join(f"{a}px {b}px 2px {theme.halo}" for a in (-1, 0, 1) for b in (-1, 0, 1))
 
 
-def _bar(field: Field, theme: Theme, where: dict[str, Any]) -> dict[str, Any]:
+def _bar(field: Field, theme: Theme, where: dict[str, object]) -> dict[str, object]:
     bar: dict[str, Any] = {
         "title": {"text": field.label, "side": "top", "font": {"size": 11}}, "thickness": 11, "outlinewidth": 0.7,
         "outlinecolor": theme.rule, "tickfont": {"size": 10}, "ticks": "outside", "ticklen": 3, "ypad": 0, "xpad": 0,

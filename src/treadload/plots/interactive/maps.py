@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -19,6 +19,9 @@ from treadload.plots.interactive.places import Place
 from treadload.plots.interactive.theme import Theme, theme_of
 from treadload.plots.kit.plan import MM, Limits, Plan, limits, peak_of
 from treadload.plots.kit.style import measure
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 # Pixels: width that a figure is laid out for, around a map, above it for title and colour bar, between two.
 WIDTH = 1100.0
@@ -35,7 +38,7 @@ def linked_maps(
     places: Sequence[Place] = (),
     theme: str | Theme = "light",
     width: float = WIDTH,
-) -> Any:
+) -> Figure:
     """Maps side by side in true scale, as one Figure of plotly: who zooms or moves one moves all.
 
     fields: of `field_of` and its like. cut: a line that is drawn on all and can be dragged on the first, whose shape
@@ -54,7 +57,7 @@ def laid_out(
     cut: Cut | None = None,
     places: Sequence[Place] = (),
     below: float = 0.0,
-) -> tuple[list[Trace], dict[str, Any]]:
+) -> tuple[list[Trace], dict[str, object]]:
     """Traces and layout of linked maps. below: pixels that are left free under them for something else."""
     if not fields:
         raise InputError("linked maps need one map at least")
@@ -87,7 +90,7 @@ def laid_out(
     return traces, layout
 
 
-def marked(places: Sequence[Place], count: int, *, theme: str | Theme = "light") -> Any:
+def marked(places: Sequence[Place], count: int, *, theme: str | Theme = "light") -> Figure:
     """The marks alone that `linked_maps` puts on so many maps, as a Figure of plotly, for maps that stand already."""
     look = theme_of(theme)
     axes = [("x" if n == 1 else f"x{n}", "y" if n == 1 else f"y{n}") for n in range(1, count + 1)]
@@ -109,7 +112,7 @@ def difference_map(
     cut: Cut | None = None,
     theme: str | Theme = "light",
     width: float = WIDTH,
-) -> Any:
+) -> Figure:
     """Two results on one scale and the first less the second, as linked maps.
 
     name: of a map that both have, see `choices`. labels: of the two. depth: m, of responses. Where their grids

@@ -45,9 +45,28 @@ window.treadloadLink = function (maps, below, load) {
     const key = Object.keys(change).find((one) => one.startsWith("shapes["));
     if (!key) return;
     const cut = maps.layout.shapes[parseInt(key.slice(7), 10)];
-    window.treadloadLine(maps, cut);
-    window.treadloadProfile(below, load.grids, cut);
+    const inside = window.treadloadWithin(maps, cut);
+    window.treadloadLine(maps, inside);
+    window.treadloadProfile(below, load.grids, inside);
   });
+};
+
+// A line {x0, y0, x1, y1}, mm, inside the outer edges of a map: one that was moved as a whole (as long as the line
+// before, and in its direction) comes back as a whole, else its ends do. One of no length gives way to the line before.
+window.treadloadWithin = (maps, line, before = null) => {
+  const drawn = (maps?._fullData ?? []).find((trace) => trace.type === "heatmap" && trace.visible === true);
+  if (!drawn?.x?.length || !drawn?.y?.length) return line;
+  const inside = { x0: line.x0, y0: line.y0, x1: line.x1, y1: line.y1 };
+  const same = (key) => before && Math.abs(line[`${key}1`] - line[`${key}0`] - before[`${key}1`] + before[`${key}0`]) < 1e-6;
+  const whole = same("x") && same("y");
+  for (const key of ["x", "y"]) {
+    const edges = drawn[key], low = edges[0], high = edges[edges.length - 1];
+    const [first, end] = [`${key}0`, `${key}1`];
+    const least = Math.min(line[first], line[end]), most = Math.max(line[first], line[end]);
+    const shift = whole && most - least <= high - low ? Math.max(0, low - least) - Math.max(0, most - high) : 0;
+    for (const one of [first, end]) inside[one] = Math.min(high, Math.max(low, line[one] + shift));
+  }
+  return Math.hypot(inside.x1 - inside.x0, inside.y1 - inside.y0) > 1e-6 ? inside : before ?? line;
 };
 
 // Puts the line of a cut elsewhere on all maps. Plotly would draw the whole figure anew for it.

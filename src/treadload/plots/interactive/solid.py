@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from treadload.composing import Source
 from treadload.errors import InputError
+from treadload.kernels.arrays import Array
 from treadload.plots.interactive.drawing import figure
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.plan import KPA, MM, X_LABEL, Y_LABEL, Plan, fields_of, limits, plane
 from treadload.plots.kit.style import measure
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 # Points along each side of the surface that a browser turns without lagging.
 _MOST_POINTS = 240
@@ -22,7 +26,7 @@ _SHOWN = 0.98
 _BARE = 2e-3
 
 
-def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.0) -> Any:
+def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.0) -> Figure:
     """The tread before loading, turned up, with the contact pressure in colour, as a Figure of plotly.
 
     contact: with initial_gap (y, x), m, NaN where there is no tread, and pressure, Pa. x and y in true
@@ -33,7 +37,7 @@ def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.
     step = max(1, -(-max(data.sizes["x"], data.sizes["y"]) // _MOST_POINTS))
     data = data.isel(x=slice(None, None, step), y=slice(None, None, step))
     plan, pressure = Plan.of(data), np.nan_to_num(plane(data, "pressure") * KPA)
-    relief = -plane(data, "initial_gap") * MM
+    relief: Array = -plane(data, "initial_gap") * MM
     finite = relief[np.isfinite(relief)]
     if not finite.size:
         raise InputError("this contact has no tread to draw: its initial gap is unknown everywhere")
@@ -70,6 +74,6 @@ def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.
     return figure([surface], layout, look)
 
 
-def _lowest_touched(relief: Any, pressure: Any) -> float:
+def _lowest_touched(relief: Array, pressure: Array) -> float:
     touched = relief[np.isfinite(relief) & (pressure > 0)]
     return float(touched.min()) if touched.size else -np.inf

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,6 +14,9 @@ from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.plan import MM, X_LABEL, Y_LABEL
 from treadload.plots.kit.shown import shown
 from treadload.plots.sweeps.reading import PLANE, View, beside
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 _SCALES = {"pressure": "pressure", "traction_x": "signed", "traction_y": "signed"}
 _TALL, _LEFT, _RIGHT, _ABOVE, _BELOW = 620.0, 62.0, 96.0, 44.0, 50.0
@@ -29,7 +32,9 @@ def study_maps(study: Source) -> dict[str, str]:
     }
 
 
-def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, theme: str | Theme = "light") -> Any:
+def study_curve(
+    study: Source, name: str, along: str, at: Mapping[str, int], *, theme: str | Theme = "light"
+) -> Figure:
     """A result along one input through a point of a study, as a Figure of plotly; the point itself is marked.
 
     study: a sweep. name: of the result. along: dimension of the study. at: dimension → number of its value; left
@@ -76,7 +81,7 @@ def study_curve(study: Source, name: str, along: str, at: Mapping[str, int], *, 
 
 def study_map(
     study: Source, name: str, at: Mapping[str, int], *, theme: str | Theme = "light", width: float = 900.0
-) -> Any:
+) -> Figure:
     """A field that a study has kept at one of its points, in true scale, as a Figure of plotly.
 
     study: a sweep. name: of the field. at: dimension → number of its value; left out, the first. width: pixels. The

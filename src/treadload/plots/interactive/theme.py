@@ -84,7 +84,7 @@ def colour_scale(kind: str, theme: str = "light") -> list[list[Any]]:
     return steps
 
 
-def template(theme: Theme) -> dict[str, Any]:
+def template(theme: Theme) -> dict[str, object]:
     """The template of plotly for a theme."""
     axis = {
         "gridcolor": theme.rule, "linecolor": theme.muted, "tickcolor": theme.muted, "zeroline": False,

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib import resources
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from treadload import figure_registry
 from treadload.composing import Source
@@ -33,6 +33,9 @@ from treadload.plots.interactive.solid import tread
 from treadload.plots.interactive.theme import FONT, Theme, theme_of
 from treadload.plots.kit.plan import MM, fields_of
 from treadload.plots.response import VARIABLE
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 PAGE = {".html": "a page", ".htm": "a page"}
 CONFIG = {
@@ -174,7 +177,7 @@ def verdict_view(verdict: Source, *, theme: str | Theme = "light") -> LinkedView
     return LinkedView("Verdict", figures, look, {}, tuple(getattr(verdict, "warnings", ())))
 
 
-def _through(stages: Sequence[Sequence[Field]], words: Sequence[str], cut: Cut, look: Theme) -> Any:
+def _through(stages: Sequence[Sequence[Field]], words: Sequence[str], cut: Cut, look: Theme) -> Figure:
     """Linked maps with a slider through stages, each with maps of its own."""
     room = 58.0 if len(stages) > 1 else 0.0
     traces: list[dict[str, Any]] = []

@@ -49,7 +49,7 @@ class ShownFigure(Figure):
         """A small PNG of the figure."""
         return png(self, dpi=_ACROSS / self.get_figwidth())
 
-    def _repr_png_(self) -> tuple[bytes, dict[str, Any]]:
+    def _repr_png_(self) -> tuple[bytes, dict[str, object]]:
         image = png(self, dpi=_SHARP)
         # Width and height stand at a fixed place of every PNG.
         pixels = struct.unpack(">II", image[16:24])

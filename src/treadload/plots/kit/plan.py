@@ -18,6 +18,7 @@ from matplotlib.transforms import offset_copy
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
 from treadload.plots.kit.style import INK, MUTED, PAPER, RULE, figure_of, halo
 from treadload.units import stress_in_words
@@ -271,12 +272,10 @@ def mark_peak(ax: Axes, x: float, y: float, text: str) -> None:
     )  # fmt: skip
 
 
-def peak_of(values: Array) -> tuple[int, int]:
-    """Row and column of the largest value (ny, nx)."""
-    if not np.isfinite(values).any():
-        return 0, 0
-    row, column = np.unravel_index(int(np.nanargmax(values)), values.shape)
-    return int(row), int(column)
+def peak_of(values: Array, *, horizontal: int = 2) -> tuple[int, int]:
+    """Row and column of the largest value (ny, nx); with horizontal=1 (depth, n). See `index_of_largest`."""
+    row, column = index_of_largest(values, horizontal=horizontal)
+    return row, column
 
 
 def empty_note(ax: Axes, text: str) -> None:

@@ -108,7 +108,7 @@ def draw_section(ax: Axes, section: Section, scale: Limits) -> QuadMesh:
     ax.set_xlabel(X_LABEL if section.name == "x" else Y_LABEL)
     ax.set_ylabel(DEPTH_LABEL)
     draw_interfaces(ax, section.layers, section.bottom, on_colours=True)
-    row, column = peak_of(section.values)
+    row, column = peak_of(section.values, horizontal=1)
     if section.values[row, column] > 0:
         apart = max(float(np.ptp(section.across)) / 42, float(np.ptp(section.down)) / 24)
         # No stroke reaches across an interface, where the direction jumps.

@@ -166,7 +166,7 @@ def halo(width: float = 2.5) -> list[withStroke]:
     return [withStroke(linewidth=width, foreground=PAPER)]
 
 
-def ink_on(colour: Any) -> str:
+def ink_on(colour: object) -> str:
     """Of ink and paper, that which stands out more from a colour of matplotlib, by the contrast of WCAG 2."""
 
     def light(colour: Any) -> float:

@@ -80,7 +80,7 @@ def study_curve(
     against: str = "",
     *,
     by: str | None = None,
-    at: Mapping[str, Any] | None = None,
+    at: Mapping[str, object] | None = None,
     ax: Axes | None = None,
 ) -> Figure:
     """A result of every case against one input, a line for each value of another; dots where cases were sampled.
@@ -108,7 +108,7 @@ def study_curves(
     against: str = "",
     *,
     by: str | None = None,
-    at: Mapping[str, Any] | None = None,
+    at: Mapping[str, object] | None = None,
 ) -> Figure:
     """Panels of `study_curve`: several results against one input.
 
@@ -147,7 +147,7 @@ def study_curves(
 )  # fmt: skip
 @styled
 def study_slip_curve(
-    study: Source, *, by: str | None = None, at: Mapping[str, Any] | None = None, ax: Axes | None = None
+    study: Source, *, by: str | None = None, at: Mapping[str, object] | None = None, ax: Axes | None = None
 ) -> Figure:
     """Shear force over friction times load, Q/μP, against creepage, both as solved, a line for each of another input.
 
@@ -241,7 +241,13 @@ def _draw(
 
 
 def _dots(
-    ax: Axes, view: View, field: xr.DataArray, along: str, by: str | None, at: Mapping[str, Any] | None, letters: int
+    ax: Axes,
+    view: View,
+    field: xr.DataArray,
+    along: str,
+    by: str | None,
+    at: Mapping[str, object] | None,
+    letters: int,
 ) -> None:
     """A result of cases that stand in a list, against one of their inputs, coloured by another."""
     (dim,) = map(str, view.data[along].dims)

@@ -54,7 +54,13 @@ def _fields(data: xr.Dataset) -> Iterator[Drawing]:
 )  # fmt: skip
 @styled
 def study_map(
-    study: Source, of: str, x: str = "", y: str = "", *, at: Mapping[str, Any] | None = None, ax: Axes | None = None
+    study: Source,
+    of: str,
+    x: str = "",
+    y: str = "",
+    *,
+    at: Mapping[str, object] | None = None,
+    ax: Axes | None = None,
 ) -> Figure:
     """A result over two inputs, in colour; dots where cases were sampled.
 
@@ -144,7 +150,7 @@ def _cells(
 )  # fmt: skip
 @styled
 def study_multiples(
-    study: Source, of: str, across: str = "", down: str = "", *, at: Mapping[str, Any] | None = None
+    study: Source, of: str, across: str = "", down: str = "", *, at: Mapping[str, object] | None = None
 ) -> Figure:
     """A field of every case in plan: small maps on one scale, an input across the page, another down.
 

@@ -9,18 +9,17 @@ several times worse than steps: they keep whole cells.
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.materials.aggregates import Spheres
 
 # Sub-cells of a cell along each axis.
 _SUB = 6
 
 
-def shares(stones: Spheres, x: Array, y: Array, z: Array) -> tuple[Any, Any, Array]:
+def shares(stones: Spheres, x: Array, y: Array, z: Array) -> tuple[IntArray, IntArray, Array]:
     """How much of each cell is stone, all (nz, ny, nx). x, y, z: centres of even cells, m.
 
     Number of the stone that a cell stands for, from 1, 0 for none: of each stone the fullest cells, as many as its

@@ -9,7 +9,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.eigenstrain.operator import Grid
 from treadload.kernels.tensors import largest_principal
 from treadload.response.fields import tensor_fields
@@ -62,10 +62,10 @@ def readings(
     tension, extension = largest_principal(stress), largest_principal(strain)
     tension_alone, extension_alone = largest_principal(alone.stress), largest_principal(alone.strain)
 
-    def percentiles(values: Array, where: Any) -> list[float]:
+    def percentiles(values: Array, where: BoolArray) -> list[float]:
         return [share_below(values[where], volume[where], share / 100) for share in PERCENTILES]
 
-    def mean(values: Array, where: Any) -> float:
+    def mean(values: Array, where: BoolArray) -> float:
         return float(np.average(values[where], weights=volume[where])) if where.any() else float("nan")
 
     in_mortar = percentiles(extension, mortar)
@@ -111,7 +111,7 @@ def readings(
     return variables.dataset(fields, coordinates, **over)
 
 
-def _inner(x: Array, y: Array, z: Array, grid: Grid, radius: float) -> Any:
+def _inner(x: Array, y: Array, z: Array, grid: Grid, radius: float) -> BoolArray:
     """Cells that are read: not those beside the sides and the bottom, beyond which there would be stones."""
     sides = [min(radius, _BORDER * len(at) * size) for at, size in ((x, grid.dx), (y, grid.dy))]
     along, across = (
@@ -119,10 +119,13 @@ def _inner(x: Array, y: Array, z: Array, grid: Grid, radius: float) -> Any:
         for at, size, side in ((x, grid.dx, sides[0]), (y, grid.dy, sides[1]))
     )
     above = z <= grid.edges[-1] - min(radius, _BORDER * (grid.edges[-1] - grid.edges[0]))
-    return above[:, None, None] & across[:, None] & along
+    inside: BoolArray = above[:, None, None] & across[:, None] & along
+    return inside
 
 
-def _upper(numbers: Any, bonds: Faces, x: Array, y: Array, z: Array, grid: Grid, radius: float, inner: Any) -> Any:
+def _upper(
+    numbers: IntArray, bonds: Faces, x: Array, y: Array, z: Array, grid: Grid, radius: float, inner: BoolArray
+) -> BoolArray:
     """Faces of stones that begin less than the largest radius below the surface, away from the window's sides."""
     shallow = z < max(radius, float(grid.thickness[0]))
     first = np.unique(numbers[shallow])
@@ -130,5 +133,6 @@ def _upper(numbers: Any, bonds: Faces, x: Array, y: Array, z: Array, grid: Grid,
         np.clip(np.searchsorted(at, values), 0, len(at) - 1)
         for at, values in ((z, bonds.depth), (y, bonds.y), (x, bonds.x))
     ]
-    result = np.isin(bonds.stone, first) & inner.any(axis=0)[places[1], places[2]]
+    above_any: BoolArray = np.asarray(inner.any(axis=0))
+    result: BoolArray = np.isin(bonds.stone, first) & above_any[places[1], places[2]]
     return result

@@ -6,13 +6,13 @@ import math
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Literal, get_args
+from typing import Literal, TypedDict, Unpack, get_args
 
 import numpy as np
 
 from treadload import variables
 from treadload.errors import ConvergenceError, InputError, positive
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.eigenstrain import operator
 from treadload.kernels.eigenstrain.inclusions import equivalent
 from treadload.kernels.eigenstrain.operator import Grid
@@ -26,7 +26,7 @@ from treadload.response.heterogeneous.cell_error import BASIS, caveats, largest,
 from treadload.response.heterogeneous.cut import mixed, shares
 from treadload.response.heterogeneous.readings import Fields, Packing, readings
 from treadload.response.heterogeneous.solution import Heterogeneous
-from treadload.response.loads import GridLoad, Load, gather
+from treadload.response.loads import GridLoad, Load, PlacedLoad, gather
 from treadload.response.solve import solve_response
 
 Borders = Literal["steps", "shares"]
@@ -43,31 +43,38 @@ _TOLERANCE, _ITERATIONS = 1e-6, 600
 _RESOLVED = 4.0
 
 
+class Sizes(TypedDict, total=False):
+    """Of the block in which stones stand: length along x and width along y, its depth, and its cells, m."""
+
+    window: tuple[float, float] | None
+    depth: float | None
+    spacing: float | None
+
+
 def compute_heterogeneous(
     loads: Load | Sequence[Load],
     mortar: Elastic | Pavement,
     stones: Aggregates | Sequence[Aggregates],
     *,
-    window: tuple[float, float] | None = None,
-    depth: float | None = None,
     at: tuple[float, float] = (0.0, 0.0),
-    spacing: float | None = None,
     bond_strength: float | None = None,
     borders: Borders = "steps",
     progress: Callable[[str], None] | None = None,
+    **sizes: Unpack[Sizes],
 ) -> Heterogeneous:
     """Stress and strain in a window of road in which stones stand in a mortar.
 
     loads: a contact or other loads, see `solve_response`. mortar: what is between the stones, Elastic; or a road of
     layers whose top layer it is, for the stress that comes from the layers. stones: Aggregates, or several of other
-    materials, voids among them. window: length along x and width along y, m. depth: of the window from the surface
-    down, m. at: its middle, m, for instance below the edge of a rib. spacing: of the cells, m, a whole part of the
-    window's sides. A scan brings window, depth and spacing with it. bond_strength: tension that the bond of mortar
-    and stone bears, Pa, for the ravelling index; left out, the load's largest pressure takes its place.
-    borders: of spheres. "steps": a cell is of the stone that its centre is in, all of it. "shares": each stone has
-    as many cells as its volume, and cells that the border of a stiff one cuts have the mean compliance of both parts:
-    what stones bear and what they do to what is around them is then nearer to the truth, by a factor of ten with 8
-    cells a radius; in cut cells the stress is that of both. progress: called with a line of text while it computes.
+    materials, voids among them. sizes: window=, depth= and spacing=. window: length along x and width along y, m.
+    depth: of the window from the surface down, m. at: its middle, m, for instance below the edge of a rib. spacing:
+    of the cells, m, a whole part of the window's sides. A scan brings window, depth and spacing with it.
+    bond_strength: tension that the bond of mortar and stone bears, Pa, for the ravelling index; left out, the load's
+    largest pressure takes its place. borders: of spheres. "steps": a cell is of the stone that its centre is in, all
+    of it. "shares": each stone has as many cells as its volume, and cells that the border of a stiff one cuts have
+    the mean compliance of both parts: what stones bear and what they do to what is around them is then nearer to the
+    truth, by a factor of ten with 8 cells a radius; in cut cells the stress is that of both. progress: called with a
+    line of text while it computes.
 
     The stress of the mortar alone is that of `solve_response` at the cells' centres. Stones change it by equivalent
     eigenstrain in cells, below a free surface, see `kernels.eigenstrain.inclusions`. Limits: one Poisson's ratio and
@@ -82,7 +89,7 @@ def compute_heterogeneous(
     tell = progress or (lambda text: None)
     groups = _groups(stones)
     road, matrix = _road(mortar)
-    block = _block(groups, window, depth, spacing)
+    block = _block(groups, **sizes)
     _check_layer(road, block.window.depth)
     for name, value in zip("xy", at, strict=True):
         if isinstance(value, bool | str) or not math.isfinite(value):
@@ -234,7 +241,9 @@ def _check_layer(road: Pavement, depth: float) -> None:
         )
 
 
-def _block(groups: Sequence[Aggregates], window: object, depth: float | None, spacing: float | None) -> _Block:
+def _block(
+    groups: Sequence[Aggregates], *, window: object = None, depth: float | None = None, spacing: float | None = None
+) -> _Block:
     scan = groups[0].scanned
     if scan is not None:
         if window is not None or depth is not None or spacing is not None:
@@ -279,7 +288,7 @@ def _count(name: str, side: float, spacing: float) -> int:
 
 def _stones(
     groups: Sequence[Aggregates], block: _Block, shared: bool
-) -> tuple[Any, Any, list[Spheres], list[str], Any, Array]:
+) -> tuple[IntArray, IntArray, list[Spheres], list[str], IntArray, Array]:
     """Numbers (nz, ny, nx) of stones, from 1; the group of each; those that are spheres; warnings; of each cell the
     stone that has the largest share in it, and that share.
     """
@@ -329,11 +338,11 @@ def _moduli(material: Elastic | None) -> tuple[float, float]:
     return (material.modulus / squeeze if squeeze > 0 else math.inf), 2 * material.shear_modulus
 
 
-def _bonded(numbers: Any, group: Any, groups: Sequence[Aggregates]) -> Any:
+def _bonded(numbers: IntArray, group: IntArray, groups: Sequence[Aggregates]) -> BoolArray:
     """Where a cell is of a stone, and not of a void, which nothing is bonded to."""
     solid = np.array([False, *(groups[k].material is not None for k in group)])
     return solid[numbers]
 
 
-def _largest_pressure(load: Any) -> float:
+def _largest_pressure(load: PlacedLoad) -> float:
     return float(load.pressure.max()) if isinstance(load, GridLoad) else float(load.pressure)

@@ -13,8 +13,8 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, Unpack
 
 import numpy as np
 import xarray as xr
@@ -36,7 +36,7 @@ from treadload.response.loads import GridLoad
 from treadload.response.passes.box import Box, over_strength, row_edges
 from treadload.response.passes.dents import Dents
 from treadload.response.passes.fields import cautions, passes_dataset
-from treadload.response.passes.problem import Problem, Zone, problem_of
+from treadload.response.passes.problem import Problem, Zone, ZoneKeys, problem_of
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.steady import Pass, Track, roll, taken
 from treadload.response.passes.stepping import (
@@ -64,6 +64,8 @@ _LENGTH, _WIDTH, _LONG = 12, 28, 56
 _SEARCHED, _EVERY, _PROBED, _REACH, _BEHIND, _AHEAD, _DEEPER = 30.0, 4, 16, 2.5, 1.3, 2.0, 1.3
 # Of the contact inside: a looser one would stall the mixing.
 _INNER = 1e-7
+# Rows of cells in what may yield.
+_ROWS = 10
 
 
 @dataclass(eq=False)
@@ -101,20 +103,19 @@ def roll_drum(
     *,
     passes: int = 8,
     speed: float | None = None,
-    spacing: tuple[float, float] | None = None,
-    depth: float | None = None,
-    layers: int = 10,
     tolerance: float = 1e-3,
     progress: Callable[[str], None] | None = None,
+    **zone: Unpack[ZoneKeys],
 ) -> Passes:
     """What a drum or a steel wheel leaves as it rolls over its own track, pass by pass, until that comes to rest.
 
     drum: of any tire's kind, elastic: steel, or stiff for a rigid one; a smooth drum is a TreadProfile without
     grooves and with a crown radius of kilometres. road: with a layer that yields, elastic below. load: N, on the
     drum. passes: at most; a pass that adds less than 1 % of the strain at yield is the last. speed: m/s, which laws
-    of Perzyna need. spacing: of the cells along and across travel, m; left out, a twelfth of the elastic contact's
-    length and a 28th of the drum's width. depth: of what may yield, m; left out, it grows until it holds it. layers:
-    rows of cells in it. tolerance: of the plastic strain of a pass, relative.
+    of Perzyna need. zone: spacing=, depth= and layers= of what may yield. spacing: of the cells along and across
+    travel, m; left out, a twelfth of the elastic contact's length and a 28th of the drum's width. depth: of what may
+    yield, m; left out, it grows until it holds it. layers: rows of cells in it. tolerance: of the plastic strain of a
+    pass, relative.
 
     The contact has no friction: the drum is towed, or pushed by other wheels. It is that of the drum on the dented
     road, on layers with their compliance. Limits are those of `roll_passes` else.
@@ -129,10 +130,12 @@ def roll_drum(
         raise InputError(f"passes must be a whole number >= 1, got {passes!r}")
     if not 1e-6 <= tolerance <= 0.1:
         raise InputError(f"tolerance must lie in [1e-6, 0.1], got {tolerance:g}; 1e-3 is the default")
-    cell = _cell(spacing, drum)
+    keys: ZoneKeys = {"layers": _ROWS, **zone}
+    followed = Zone(**keys)
+    cell = _cell(followed.spacing, drum)
     pair = Pair.of(drum, road, road_compliance="layers")
     elastic = _elastic(drum, pair, load)
-    question = problem_of(elastic, road, Zone(None, depth, layers), speed=speed, tell=progress)
+    question = problem_of(elastic, road, replace(followed, spacing=None), speed=speed, tell=progress)
     if any(isinstance(course.material.law, PassesPowerLaw) for course in question.courses):
         raise InputError(
             "a PassesPowerLaw has no flow that the drum could feel: give VonMises, MohrCoulomb, DruckerPrager or "
@@ -220,7 +223,7 @@ def _box(question: Problem, drum: Tire, elastic: GridLoad, cell: tuple[float, fl
 
 def _grown(
     question: Problem, drum: Tire, pair: Pair, box: Box, load: float, passes: int, tolerance: float
-) -> tuple[list[Record], _Rolled, tuple[str, ...], dict[str, Any]]:
+) -> tuple[list[Record], _Rolled, tuple[str, ...], dict[str, object]]:
     """All passes, in a box that holds what yields and what touches."""
     fixed = drum.surface.fixed_grid is not None
     for _ in range(GROWTHS + 1):
@@ -264,7 +267,7 @@ def _rolled(question: Problem, drum: Tire, pair: Pair, box: Box, load: float) ->
 
 def _run(
     question: Problem, rolled: _Rolled, track: Track, passes: int, tolerance: float
-) -> tuple[list[Record], Any, tuple[str, ...], dict[str, Any]]:
+) -> tuple[list[Record], Array, tuple[str, ...], dict[str, object]]:
     box = rolled.box
     duration = 0.0 if question.speed is None else box.dx / question.speed
 

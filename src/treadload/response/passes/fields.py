@@ -27,7 +27,7 @@ def passes_dataset(
     among: Sequence[Course],
     box: Box,
     records: Sequence[Record],
-    attrs: dict[str, Any],
+    attrs: dict[str, object],
     by_pass: Mapping[str, Array] | None = None,
 ) -> xr.Dataset:
     """The dataset of `Passes`.

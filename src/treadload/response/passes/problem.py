@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from statistics import NormalDist
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -92,6 +92,14 @@ class Problem:
             [Question(self.loads, self.road, depths)], view, side="below", speed=self.speed, mean_over=None
         )
         return answer.fields.stress
+
+
+class ZoneKeys(TypedDict, total=False):
+    """The fields of a `Zone`, as keywords of the verbs."""
+
+    spacing: float | tuple[float, float] | None
+    depth: float | None
+    layers: int | None
 
 
 @dataclass(frozen=True)

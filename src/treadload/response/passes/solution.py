@@ -11,6 +11,7 @@ import xarray as xr
 
 from treadload.citations import DENTS, PASSES
 from treadload.composing import BaseResult, Holds
+from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS
 from treadload.response.loads import PlacedLoad
@@ -126,7 +127,7 @@ class Passes(BaseResult, group="passes"):
             ]
         last = data["equivalent_plastic_strain"].isel({"pass": -1}).to_numpy()
         if last.any():
-            deep, across = np.unravel_index(int(last.argmax()), last.shape)
+            deep, across = index_of_largest(last, horizontal=1)
             place = f"at y = {float(data['y'][across]) * 1e3:.1f} mm, {float(data['depth'][deep]) * 1e3:.1f} mm deep"
             lines.append(row("largest_plastic_strain", float(last.max()), note=place))
         return (*lines, row("verdict", f"after {numbers[-1]:g} pass(es): {self.in_words}"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Sequence
+from typing import Unpack
 
 import numpy as np
 
@@ -13,7 +14,7 @@ from treadload.pavement import Pavement
 from treadload.response.loads import Load, gather
 from treadload.response.passes.counts import by_power_law
 from treadload.response.passes.fields import cautions, passes_dataset
-from treadload.response.passes.problem import Zone, problem_of
+from treadload.response.passes.problem import Zone, ZoneKeys, problem_of
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.stepping import by_steps
 
@@ -24,19 +25,18 @@ def roll_passes(
     *,
     passes: int = 10,
     speed: float | None = None,
-    spacing: float | tuple[float, float] | None = None,
-    depth: float | None = None,
-    layers: int | None = None,
     offsets: Sequence[float] | None = None,
     wander: float | None = None,
     tolerance: float = 1e-3,
     progress: Callable[[str], None] | None = None,
+    **zone: Unpack[ZoneKeys],
 ) -> Passes:
     """What passes of a load leave in a road: plastic strain, residual stress and the rut.
 
     loads: as for `solve_response`: a contact, whose pressure and shear roll along +x, or loads of your own. road:
     with at least one layer whose material is an ElastoPlastic. passes: how many; under a PassesPowerLaw any number,
     told at 1, 2, 5, 10, … of them. speed: m/s, > 0, which laws of Perzyna need, for the time under the load.
+    zone: spacing=, depth= and layers= of the box in which the road may yield.
     spacing: of the cells of the box that may yield, m, or their sizes along and across travel; left out, the
     footprint's longer side over 32, and across a twelfth of the width of its ribs or blocks where that is less, but
     no less than a third of it. depth: of the box, m, from the surface; left out, it grows until it holds what yields.
@@ -53,9 +53,7 @@ def roll_passes(
     that reaches the box.
     """
     start = time.perf_counter()
-    question = problem_of(
-        loads, road, Zone(spacing, depth, layers), speed=speed, offsets=offsets, wander=wander, tell=progress
-    )
+    question = problem_of(loads, road, Zone(**zone), speed=speed, offsets=offsets, wander=wander, tell=progress)
     if isinstance(passes, bool) or not isinstance(passes, int | np.integer) or passes < 1:
         raise InputError(f"passes must be a whole number >= 1, got {passes!r}")
     if not 1e-8 <= tolerance <= 0.1:

@@ -255,7 +255,7 @@ def follow(
 
 def verdict_of(
     track: Track, records: Sequence[Record], *, failed: bool, straight: bool
-) -> tuple[dict[str, Any], tuple[str, ...]]:
+) -> tuple[dict[str, object], tuple[str, ...]]:
     """Attributes that tell what passes come to, and sentences. failed: a pass has no steady state. straight: all
     passes follow one line.
     """

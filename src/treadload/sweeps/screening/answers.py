@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from types import ModuleType
 from typing import Any, TypedDict, Unpack
 
 import numpy as np
@@ -198,7 +199,7 @@ def kept(answer: Answer, size: int, what: str) -> tuple[BoolArray, list[str]]:
     ]
 
 
-def salib() -> Any:
+def salib() -> ModuleType:
     """The library of sensitivity analysis, its modules loaded. Raises InputError where it is not installed."""
     try:
         import SALib
@@ -210,4 +211,5 @@ def salib() -> Any:
         raise InputError(
             f"this needs SALib, which is not installed; {how_to_install('study')}, or use sweeps.screening.tornado"
         ) from error
-    return SALib
+    library: ModuleType = SALib
+    return library

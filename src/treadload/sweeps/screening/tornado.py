@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Unpack
+from typing import ClassVar, Unpack
 
 import numpy as np
 
@@ -54,7 +54,7 @@ class Tornado(Screening, group="tornado"):
 
 def tornado(
     case: Case,
-    ranges: Mapping[str, tuple[Any, Any]],
+    ranges: Mapping[str, tuple[object, object]],
     of: str,
     *,
     at: Mapping[str, object] | None = None,

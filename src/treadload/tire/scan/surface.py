@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,7 +72,7 @@ class ScanSurface:
     def __hash__(self) -> int:
         return hash(self._digest)
 
-    def __getstate__(self) -> dict[str, Any]:
+    def __getstate__(self) -> dict[str, object]:
         # Ray casters do not travel between processes; they are built again where they are needed.
         return {k: v for k, v in self.__dict__.items() if k in self.__dataclass_fields__}
 

@@ -1,0 +1,105 @@
+"""What would help a road, as a tornado: years of the road and of every criterion after each remedy."""
+
+from __future__ import annotations
+
+import math
+import textwrap
+
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch
+from matplotlib.ticker import FuncFormatter, MaxNLocator, NullFormatter
+
+from treadload.composing import Source
+from treadload.errors import InputError
+from treadload.figure_registry import figure
+from treadload.kernels.arrays import Array
+from treadload.plots.kit.figure import new_figure
+from treadload.plots.kit.plan import fields_of
+from treadload.plots.kit.style import INK, headline, legend_below, measure, plain, styled
+
+_LONGER, _SHORTER = "#0b6fae", "#d55e00"
+_LETTERS, _MOST = 34, 24
+# A panel whose longest bar is this many times its shortest has a logarithmic axis.
+_FAR = 8.0
+# Years beyond which a bar ends.
+_LONG = 1000.0
+
+
+@figure(
+    "Remedies", name="tornado", main=True, title="What would help", wide=True,
+    caption="Years of the road, and by every criterion, after each change by one step; bars begin at the years of "
+    "the road as it is. Each was solved anew.",
+)  # fmt: skip
+@styled
+def remedy_tornado(remedies: Source) -> Figure:
+    """Bars from the years of the road as it is to those after each remedy: of the road, and by every criterion.
+
+    remedies: a Remedies or its dataset. The best and the worst are drawn where there are more than 24. Returns the
+    figure. Raises InputError if variables are missing, and where there is no remedy.
+    """
+    data = fields_of(remedies, "remedy_years", "road_years", "life_years")
+    if not data.sizes["remedy"]:
+        raise InputError("no remedy applies, so that there is nothing to draw")
+    count = data.sizes["remedy"]
+    if count > _MOST:
+        data = data.isel(remedy=[*range(_MOST // 2), *range(count - _MOST // 2, count)])
+    names = [textwrap.fill(plain(str(name)), _LETTERS) for name in data["remedy"].to_numpy()]
+    criteria = [str(name) for name in data["criterion"].to_numpy()]
+    before = np.minimum(data["life_years"].to_numpy(), _LONG)
+    after = np.minimum(data["remedy_years"].to_numpy(), _LONG)
+    panels = [("Road", float(before.min()), np.minimum(data["road_years"].to_numpy(), _LONG))]
+    if len(criteria) > 1:
+        panels += [(name, float(before[k]), after[:, k]) for k, name in enumerate(criteria)]
+    figure = new_figure(3.2 + 1.9 * len(panels), 1.7 + 0.27 * len(names))
+    axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
+    rows = np.arange(len(names))[::-1]
+    for ax, (title, start, ends) in zip(axes, panels, strict=True):
+        _panel(ax, rows, start, ends)
+        headline(ax, textwrap.fill(title, 20), _years(start))
+    axes[0].set_yticks(rows, names)
+    axes[0].set_ylim(-0.6, len(names) - 0.4)
+    for ax in axes:
+        ax.set_xlabel("service life (years)")
+    handles: list[Artist] = [Patch(color=_LONGER, label="longer"), Patch(color=_SHORTER, label="shorter")]
+    legend_below(axes[0], handles, columns=2)
+    return figure
+
+
+def _panel(ax: Axes, rows: Array, start: float, ends: Array) -> None:
+    low, high = min(float(ends.min()), start), max(float(ends.max()), start)
+    log = high > _FAR * low > 0
+    ax.barh(
+        rows, ends - start, left=start, height=0.66, color=[_LONGER if end >= start else _SHORTER for end in ends]
+    )
+    ax.axvline(start, color=INK, lw=0.9)
+    if log:
+        ax.set_xscale("log")
+        ax.set_xlim(low / (high / low) ** 0.25, high * (high / low) ** 0.3)
+        ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        ax.xaxis.set_minor_formatter(NullFormatter())
+    else:
+        wide = max(high - low, 0.02 * start)
+        ax.set_xlim(max(low - 0.3 * wide, 0.0), high + 0.35 * wide)
+        ax.xaxis.set_major_locator(MaxNLocator(3))
+    for row, end in zip(rows, ends, strict=True):
+        if abs(end - start) < 5e-3 * start:
+            continue
+        side = 1 if end >= start else -1
+        ax.annotate(
+            _number(end), (end, row), xytext=(3 * side, 0), textcoords="offset points", va="center",
+            ha="left" if side > 0 else "right", fontsize=7.5,
+        )  # fmt: skip
+    ax.tick_params(axis="y", length=0)
+    ax.spines[["top", "right", "left"]].set_visible(False)
+    ax.grid(True, axis="x")
+
+
+def _number(years: float) -> str:
+    return f"> {_LONG:g}" if years >= _LONG or math.isinf(years) else measure(years)
+
+
+def _years(years: float) -> str:
+    return f"as it is {_number(years)} years"
