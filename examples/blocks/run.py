@@ -32,8 +32,12 @@ DEPTHS = (0.0, 0.02)
 def ribs_of(tire: tl.Tire) -> tl.Tire:
     """The same tread without lateral grooves."""
     assert isinstance(tire.surface, ProfileSurface)
-    smooth = replace(tire.surface.profile, lateral=())
-    return tl.Tire.from_profile(smooth, inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs")
+    return tl.Tire.from_profile(
+        replace(tire.surface.profile, lateral=()),
+        inflation_pressure=tire.inflation_pressure,
+        belt=tire.belt,
+        tread="ribs",
+    )
 
 
 def asymmetry(passage: PitchPassage) -> float:

@@ -31,7 +31,7 @@ _TIMES = str.maketrans({"·": "*", "⋅": "*", "\u00a0": " ", "\u2009": " ", "\u
 PSI = 6894.757293168361
 """A pound-force per square inch, Pa: of laws that are published in it."""
 # Years and load repetitions beyond which no road is known and no number of a law is meant; files keep the number.
-LASTS, COUNTLESS = 1000.0, 1e10
+LASTS, COUNTLESS = 100.0, 1e10
 
 _EXAMPLES = {
     "m": '"3 mm"',

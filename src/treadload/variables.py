@@ -617,6 +617,7 @@ _DISPLAYS_LIFE = {
     "design_utilisation": Display("utilisation", "", ".2g"),
     "design_damage": Display("damage", "", ".2g"),
     "damage_by": Display("most damage by"),
+    "law_conditions": Display("law calibrated"),
     "first_crack": Display("first crack"),
     "end_of_life": Display("damage 1 means"),
     "quantity": Display("evaluated"),

@@ -7,10 +7,11 @@ from pathlib import Path
 import pytest
 
 import treadload.case
+from treadload.app.case_schema import CaseSchema
 from treadload.app.engines import Engines
 from treadload.app.form import Form
 from treadload.app.form_field import Field
-from treadload.app.form_parts import Absent, CaseSchema, Choosing, Group, Rows, parts_in
+from treadload.app.form_parts import Absent, Choosing, Group, Rows, parts_in
 from treadload.app.session import MESHES, Session
 from treadload.app.unsolved import left_out, unsolved
 from treadload.case import Case

@@ -43,3 +43,16 @@ def test_a_kinked_crack_below_twelve_profiles_starts_in_the_nearest_season_solve
 def test_its_cases_can_be_read(place):
     case = tl.Case.from_toml(EXAMPLE / f"{place}.toml")
     assert {row.speed for row in case.build_traffic().classes} != {None}
+
+
+@pytest.mark.slow
+def test_what_would_help_the_bus_stop(tmp_path, capsys):
+    run = runpy.run_path(str(EXAMPLE / "what_helps.py"))["main"]
+    answers = run(tmp_path, ["bus_stop"], "24 mm", ["thickness", "bond", "turning", "wander"])
+    assert "2 cm more EB-GB3" in capsys.readouterr().out
+    assert {path.name for path in tmp_path.iterdir()} == {"bus_stop_remedies.nc", "bus_stop_remedies.png"}
+    # The base governs, whose law includes wander: only the surface gains by it.
+    gains = answers["bus_stop"].dataset["remedy_years"] / answers["bus_stop"].dataset["life_years"]
+    assert float(gains.sel(remedy="50 mm more wander", criterion="base, bottom-up")) == pytest.approx(1.0, rel=1e-12)
+    assert float(gains.sel(remedy="50 mm more wander", criterion="surface, MEPDG")) > 1
+    assert len(answers["bus_stop"].skipped) == 2

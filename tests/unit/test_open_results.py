@@ -14,7 +14,7 @@ import xarray as xr
 import treadload as tl
 from cases import COARSE_CASE
 from studies import CASE, study_of
-from treadload.app.form_parts import label_of
+from treadload.app.case_schema import label_of
 from treadload.app.result_rows import rows_of
 from treadload.case import Case
 from treadload.composing import BaseResult, dataset_of, result_classes

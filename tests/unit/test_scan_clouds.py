@@ -1,6 +1,7 @@
 """Clouds of points, scans of a part of the turn, clutter, and what is no tire."""
 
 import math
+import os
 import re
 import struct
 from dataclasses import replace
@@ -15,6 +16,7 @@ from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.tire import Tire
 from treadload.tire.scan.axis import sample_surface
+from treadload.tire.scan.panics import without_backtrace
 
 CONTACT = Grid.centred(0.15, 0.25, 3e-3)
 FLOORS = np.array([np.abs(CONTACT.y - g.centre) < 0.5 * g.width - 3e-3 for g in RIB_TREAD.grooves]).any(axis=0)
@@ -226,6 +228,26 @@ def test_files_that_are_not_what_they_say(tmp_path):
         (tmp_path / name).write_bytes(content)
         with pytest.raises((InputError, GeometryError), match=told):
             Tire.from_scan(tmp_path / name, units="m")
+
+
+def test_a_panic_of_the_library_that_unpacks_prints_nothing(tmp_path, capfd):
+    """Its backtrace goes to the descriptor of stderr; the sentence is all that a reader needs."""
+    packed = bytearray(las(tmp_path / "a.laz", cloud(2_000)).read_bytes())
+    record = struct.unpack_from("<H", packed, 94)[0] + 54
+    for at, why in ((32, "at least one"), (36, "mid > len|non-zero")):
+        damaged = bytearray(packed)
+        # The number of parts of a packed point, and the size of the first.
+        damaged[record + at] = 0
+        (tmp_path / "b.laz").write_bytes(damaged)
+        with pytest.raises(InputError, match=f"could not be read as LAZ .*({why}).*; it may be truncated"):
+            Tire.from_scan(tmp_path / "b.laz", units="m")
+        printed = capfd.readouterr()
+        assert (printed.out, printed.err) == ("", "")
+    with without_backtrace():
+        os.write(2, b"a warning\n")
+    with pytest.raises(OSError, match="descriptor"), without_backtrace():
+        os.write(-os.write(2, b"before an error\n"), b"")
+    assert capfd.readouterr().err == "a warning\nbefore an error\n"
 
 
 @pytest.mark.slow

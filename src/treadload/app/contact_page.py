@@ -8,10 +8,10 @@ from typing import Any, ClassVar
 from nicegui import background_tasks, ui
 
 from treadload.app.case_form import CaseForm
+from treadload.app.case_schema import label_of
 from treadload.app.elements import heading, plain, with_attributes
 from treadload.app.figure_place import Place
 from treadload.app.form import Form
-from treadload.app.form_parts import label_of
 from treadload.app.gallery import Gallery
 from treadload.app.page_frame import Page
 from treadload.app.run_cards import RunCards

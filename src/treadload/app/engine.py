@@ -32,7 +32,7 @@ from treadload.case.schema import KINDS
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.errors import InputError, TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree

@@ -10,8 +10,9 @@ from typing import Any, Self
 
 import tomli_w
 
+from treadload.app.case_schema import CaseSchema, value_at
 from treadload.app.form_field import Field
-from treadload.app.form_parts import CaseSchema, Group, value_at
+from treadload.app.form_parts import Group, form_of
 from treadload.case import Case
 from treadload.case.changes import changed, set_key
 from treadload.case.keys import value_at as value_in
@@ -90,7 +91,7 @@ class Form:
         case = self.check(folder).case
         road = None if case is None else case.road()
         layers = [layer.name for layer in road.layers if layer.name] if road is not None else []
-        return self.schema.form(self.table, layers)
+        return form_of(self.schema, self.table, layers)
 
     @property
     def schema(self) -> CaseSchema:

@@ -7,7 +7,7 @@ import inspect
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from treadload.app.form_parts import label_of
+from treadload.app.case_schema import label_of
 from treadload.case.step import step_classes
 from treadload.composing import BaseResult
 from treadload.contact import Contact

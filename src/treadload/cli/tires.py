@@ -13,7 +13,7 @@ from treadload.cli import shell
 from treadload.cli.progress import stages
 
 if TYPE_CHECKING:
-    from treadload.tire.tire import ScanKeys
+    from treadload.tire.keywords import ScanKeys
 
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (

@@ -30,8 +30,9 @@ from treadload.damage.laws.indian import (
 )
 from treadload.damage.laws.limit import Limit
 from treadload.damage.laws.of_layer import OnLayer
+from treadload.damage.life import Life
 from treadload.damage.listing import laws_listed, listed, quantities_listed
-from treadload.damage.miner import Life, miner
+from treadload.damage.miner import miner
 from treadload.damage.quantities import (
     BottomExtension,
     DissipatedEnergy,

@@ -23,6 +23,7 @@ from treadload.damage.cracks import (
     opens_down,
     orientation,
 )
+from treadload.damage.laws.conditions import conditions_of
 from treadload.damage.laws.fatigue import PowerLaw, warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
@@ -91,7 +92,7 @@ class Verdict(BaseResult, group="damage"):
         """What is evaluated, both tensile strains, the worst point with its crack, load repetitions, the verdict."""
         line = self.line
         *before, verdict = rows_of(self.dataset, str(line), self.strain, line.at_a_million)
-        return (*before, *self._error_estimate(), verdict)
+        return (*before, *self._error_estimate(), row("law_conditions", conditions_of(line)), verdict)
 
     def _error_estimate(self) -> list[Row]:
         """What coarser cells change, where that was asked for, see `treadload.assess`."""

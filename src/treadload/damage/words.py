@@ -14,12 +14,13 @@ import xarray as xr
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import HORIZONTAL, NONE, ORIENTATIONS, opens_down
 from treadload.damage.criterion import Criterion
+from treadload.damage.laws.conditions import conditions_of
 from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row
-from treadload.units import years_in_words
+from treadload.units import LASTS, repetitions_in_words, years_in_words
 from treadload.variables import Display, display_of
 
 # Damage across flat planes above this share of a criterion's is worth a sentence.
@@ -89,6 +90,7 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
         if key in at
     ]
     rows.append(row("damage_by", by_whom(at), group=name))
+    rows.append(row("law_conditions", conditions_of(criterion.law_at(15.0)), group=name))
     if "orientation_damage" in at:
         rows.append(row("first_crack", which_way(at, quantity.harm), group=name))
     return rows
@@ -105,6 +107,23 @@ def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:
     """What ends a road first, a criterion or `RUT`, and how that compares with the design life. data: of a `Life`."""
     if math.isinf(years):
         return "no criterion ever fails under this traffic."
+    return " ".join(filter(None, (_ends(data, governing, years), _far(data, governing))))
+
+
+def _far(data: xr.Dataset, governing: str) -> str:
+    """A sentence on criteria that do not govern: that they last longer than years are stated; empty without any."""
+    names, years, passes = (data[name].to_numpy() for name in ("criterion", "life_years", "life_passes"))
+    far = [
+        f"{name}: {years_in_words(float(at))}"
+        + (f" ({repetitions_in_words(float(count))} repetitions)" if math.isfinite(count) else "")
+        for name, at, count in zip(names, years, passes, strict=True)
+        if name != governing and at > LASTS
+    ]
+    return f"Does not govern: {'; '.join(far)}." if far else ""
+
+
+def _ends(data: xr.Dataset, governing: str, years: float) -> str:
+    """What governs, and how that compares with the design life."""
     what = "the rut" if governing == RUT else governing
     sentence = f"{what} governs and ends the service life after {years_in_words(years)}"
     if "design_years" not in data.attrs:

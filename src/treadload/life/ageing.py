@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.solve import solve_life

@@ -16,7 +16,8 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.criterion import interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
-from treadload.damage.miner import Life, passes_in_two_phases
+from treadload.damage.life import Life
+from treadload.damage.miner import passes_in_two_phases
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress

@@ -16,7 +16,7 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import GROUP_FACTORS, StandardAxle
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.traffic import AxleClass
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

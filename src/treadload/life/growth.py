@@ -29,7 +29,7 @@ from treadload.damage.growth.intensity import (
 from treadload.damage.growth.laws import GrowthLaw, ParisLaw, law_of_mix
 from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import MODES, Growth
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.thermal import passes_until
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array

@@ -13,7 +13,8 @@ import xarray as xr
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.criterion import Criterion
-from treadload.damage.miner import Life, damage_of, wander_of
+from treadload.damage.life import Life
+from treadload.damage.miner import damage_of, wander_of
 from treadload.damage.thermal import years_until
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.words import RUT, STEEPEST

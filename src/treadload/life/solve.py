@@ -14,7 +14,8 @@ import numpy as np
 from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.interface import interface_in_words
-from treadload.damage.miner import Life, miner
+from treadload.damage.life import Life
+from treadload.damage.miner import miner
 from treadload.damage.thermal import DailyCycles
 from treadload.life.caveats import beyond_tables, surface_doubts, traffic_doubts
 from treadload.life.contacts import Progress

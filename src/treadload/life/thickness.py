@@ -15,7 +15,7 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.scatter import check_risks
 from treadload.damage.words import RUT
 from treadload.errors import InputError, nearest, positive

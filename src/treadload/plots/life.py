@@ -30,6 +30,7 @@ from treadload.plots.kit.style import (
     signed,
     styled,
 )
+from treadload.units import LASTS, years_in_words
 
 _GOVERNS, _REMAINING = "#d55e00", "#0b6fae"
 # A life that is longer than this many times the design life, or than this many years, is drawn as so long.
@@ -80,7 +81,7 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     else:
         ax.set_xlim(0, 1.25 * largest)
     for row, value, length in zip(rows, years, shown, strict=True):
-        text = "never" if math.isinf(value) else f"{measure(value)} years"
+        text = years_in_words(value) if value > LASTS else f"{measure(value)} years"
         ax.annotate(text, (length, row), xytext=(5, 0), textcoords="offset points", va="center", fontsize=8.5)
     if design:
         ax.axvline(float(design), color=INK, lw=1.2, ls=(0, (4, 2)))

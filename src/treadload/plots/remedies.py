@@ -19,12 +19,13 @@ from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import INK, headline, legend_below, measure, plain, styled
-from treadload.units import LASTS
 
 _LONGER, _SHORTER = "#0b6fae", "#d55e00"
 _LETTERS, _MOST = 34, 24
 # A panel whose longest bar is this many times its shortest has a logarithmic axis.
 _FAR = 8.0
+# Years beyond which a bar ends.
+_LONG = 1000.0
 
 
 @figure(
@@ -47,14 +48,14 @@ def remedy_tornado(remedies: Source) -> Figure:
         data = data.isel(remedy=[*range(_MOST // 2), *range(count - _MOST // 2, count)])
     names = [textwrap.fill(plain(str(name)), _LETTERS) for name in data["remedy"].to_numpy()]
     criteria = [str(name) for name in data["criterion"].to_numpy()]
-    before = np.minimum(data["life_years"].to_numpy(), LASTS)
-    after = np.minimum(data["remedy_years"].to_numpy(), LASTS)
-    panels = [("Road", float(before.min()), np.minimum(data["road_years"].to_numpy(), LASTS))]
+    before = np.minimum(data["life_years"].to_numpy(), _LONG)
+    after = np.minimum(data["remedy_years"].to_numpy(), _LONG)
+    panels = [("Road", float(before.min()), np.minimum(data["road_years"].to_numpy(), _LONG))]
     if len(criteria) > 1:
         panels += [(name, float(before[k]), after[:, k]) for k, name in enumerate(criteria)]
     figure = new_figure(3.2 + 1.9 * len(panels), 1.7 + 0.27 * len(names))
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
-    rows = np.arange(len(names))[::-1]
+    rows = np.arange(float(len(names)))[::-1]
     for ax, (title, start, ends) in zip(axes, panels, strict=True):
         _panel(ax, rows, start, ends)
         headline(ax, textwrap.fill(title, 20), _years(start))
@@ -97,7 +98,7 @@ def _panel(ax: Axes, rows: Array, start: float, ends: Array) -> None:
 
 
 def _number(years: float) -> str:
-    return f"> {LASTS:g}" if years >= LASTS or math.isinf(years) else measure(years)
+    return f"> {_LONG:g}" if years >= _LONG or math.isinf(years) else measure(years)
 
 
 def _years(years: float) -> str:

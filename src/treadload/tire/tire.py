@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import lru_cache
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal, TypedDict, Unpack, get_args
+from typing import TYPE_CHECKING, Any, Literal, Unpack, get_args
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,6 +22,7 @@ from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.cross_section import TreadSection, lateral_obstacle
+from treadload.tire.keywords import BodyKeys, ScanKeys, TireMaterial, Tread
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -41,7 +42,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
-Tread = Literal["layer", "ribs"]
 # Why there is no tread = "blocks".
 BLOCKS_ROLL = (
     "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread "
@@ -51,38 +51,11 @@ RibSides = Literal["free", "filled", "unknown", "none"]
 # Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
 # 20 mm of tread with grooves of 15 mm.
 UNDERTREAD, _THICKEST_UNDERTREAD = 5e-3, 0.1
-TireMaterial = Elastic | Anisotropic | Prony | Surfaced
 # Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
 _LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
 _INCOMPRESSIBLE = 0.5
 # A body stiffer than this, Pa, is no rubber, and its ribs do not bulge.
 _STIFFEST_RUBBER = 1e8
-
-
-class BodyKeys(TypedDict, total=False):
-    """Of a tire, beside its surface: keywords of all that make one, see `Tire`."""
-
-    material: TireMaterial | None
-    inflation_pressure: float | None
-    name: str
-    belt: Belt | None
-    tread: Tread
-    undertread: float | None
-
-
-class ScanKeys(BodyKeys, total=False):
-    """Of a tire whose surface is a scan: keywords of `Tire.from_scan`, which explains them."""
-
-    units: str | None
-    nominal_diameter: float | None
-    rotation: float
-    camber: float
-    revolve: bool | Literal["auto"]
-    fill_holes: bool | Literal["auto"]
-    smooth: Literal[False, "auto"] | float
-    outliers: Literal["remove", "refuse", "keep"]
-    roundness: float
-    scale: float | None
 
 
 @dataclass(frozen=True)

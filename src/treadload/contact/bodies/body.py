@@ -32,7 +32,12 @@ import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.gridding.strips import shortened
 from treadload.kernels.sections import CellTable
+
+# Loads on strips repeat after no less than this, m: at half of it a rib feels nothing of them, so that grids of any
+# length have the same operator.
+_PERIOD = 0.6
 
 
 @dataclass(frozen=True)
@@ -133,7 +138,10 @@ class Strip:
 
         ahead: distance of the displacement from the cells, m.
         """
-        block = self.table.on_lattice(cells, dx, ahead) / self.modulus
+        whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
+        block = self.table.on_lattice(whole, dx, ahead) / self.modulus
+        if whole > cells:
+            block = shortened(block, whole, cells)
         if not self.mirrored:
             return block
         count = self.rows.size

@@ -8,6 +8,7 @@ from typing import ClassVar, Protocol, overload
 
 import numpy as np
 
+from treadload.damage.laws.conditions import UNSTATED, LoadingConditions
 from treadload.damage.quantities import EXTENSION
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError, positive
@@ -88,6 +89,8 @@ class PowerLaw(ABC):
     includes_weather: ClassVar[bool] = False
     # What ties it to roads, for `treadload criteria`.
     calibrated: ClassVar[str] = USERS
+    # The loading of the tests behind its numbers, as far as its source states it.
+    conditions: ClassVar[LoadingConditions] = UNSTATED
 
     @property
     @abstractmethod

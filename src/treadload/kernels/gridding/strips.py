@@ -210,6 +210,28 @@ class StripInverse:
         return spread
 
 
+def shortened(block: Array | ComplexArray, whole: int, length: int) -> Array | ComplexArray:
+    """A block of waves that repeat after fewer cells, whose kernel is that of the longer one as far as it reaches.
+
+    block: (whole // 2 + 1, 3 n, 3 n) as in `Strips`. whole, length: cells after which loads repeat, length the fewer.
+    Loads on half of the length see the kernel of the longer one, and nothing of its images.
+    """
+    count, half = block.shape[1] // 3, length // 2
+    parts = block.reshape(-1, 3, count, 3, count)
+    short = np.empty((half + 1, 3, count, 3, count), block.dtype)
+    for i in range(3):
+        for j in range(3):
+            frame = _FRAME[i] * _FRAME[j].conjugate()
+            kernel = fft.irfft(frame * parts[:, i, :, j], n=whole, axis=0)
+            near = np.concatenate([kernel[: half + 1], kernel[whole - (length - half - 1) :]])
+            if length % 2 == 0:
+                # Half way round, plus and minus meet.
+                near[half] = 0.5 * (kernel[half] + kernel[whole - half])
+            waves = fft.rfft(near, axis=0) / frame
+            short[:, i, :, j] = waves if np.iscomplexobj(block) else waves.real
+    return short.reshape(half + 1, *block.shape[1:])
+
+
 def _along(kernel: Array, length: int, *, odd: bool) -> ComplexArray:
     """Transform along travel (ny, length // 2 + 1) of a kernel known at distances ≥ 0 (ny, length // 2 + 1)."""
     wrapped = np.zeros((kernel.shape[0], length))

@@ -17,7 +17,7 @@ from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
-from treadload.damage.miner import Life
+from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter, check_risks
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest

@@ -70,7 +70,7 @@ class Remedies(BaseResult, group="remedies"):
         """Remedies with the years that a criterion lasts after them, the best first. Raises KeyError for no such."""
         after = self.dataset["remedy_years"].sel(criterion=criterion).to_numpy()
         names = [str(name) for name in self.dataset["remedy"].to_numpy()]
-        order = np.argsort(-np.minimum(after, LASTS), kind="stable")
+        order = np.argsort(-after, kind="stable")
         return [(names[k], float(after[k])) for k in order]
 
     def sentences(self) -> tuple[str, ...]:
@@ -116,7 +116,7 @@ class Remedies(BaseResult, group="remedies"):
         gains = [
             f"{name}, {_change(before, after)}"
             for name, after in self.best(criterion)
-            if min(after, LASTS) > (1 + _WORTH) * before
+            if after > (1 + _WORTH) * before
         ]
         return "; ".join(gains[:_LISTED]) or f"none of these changes lengthens {years_in_words(before)}"
 
@@ -146,6 +146,8 @@ def _change(before: float, after: float) -> str:
     """Years before and after, "12 → 19 years"."""
     if math.isfinite(before) and before <= LASTS and math.isfinite(after) and after <= LASTS:
         return f"{before:.3g} → {after:.3g} years"
+    if math.isfinite(after) and min(before, after) > LASTS:
+        return f"{years_in_words(before)} before and after, {after / before:.2f} times as long"
     return f"{years_in_words(before)} → {years_in_words(after)}"
 
 

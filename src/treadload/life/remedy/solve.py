@@ -11,7 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload import variables
-from treadload.damage.miner import Life, miner
+from treadload.damage.life import Life
+from treadload.damage.miner import miner
 from treadload.damage.words import RUT
 from treadload.errors import InputError, TreadloadError
 from treadload.kernels.arrays import Array
@@ -25,7 +26,6 @@ from treadload.life.remedy.solution import Remedies
 from treadload.life.remedy.steps import Kind, RemedySteps
 from treadload.life.solve import solve_sum, with_rut
 from treadload.life.thermal import daily_cycles
-from treadload.units import LASTS
 
 BY_KIND: Mapping[Kind, Changes] = {
     "thickness": road_changes.thicker_layers,
@@ -141,9 +141,8 @@ def _ranked(
     before = np.array([life.years(name) for name in ends])
     after = np.array([[each.life.years(name) for name in ends] for each in solved]).reshape(len(solved), len(ends))
     road = after.min(axis=1) if len(solved) else np.zeros(0)
-    # Beyond what years are stated to no remedy wins more than another.
-    won = np.minimum(road, LASTS) - min(float(before.min()), LASTS)
-    order = sorted(range(len(solved)), key=lambda k: (-won[k], -float(np.minimum(after[k], LASTS).sum())))
+    won = road - float(before.min())
+    order = sorted(range(len(solved)), key=lambda k: -won[k])
     standard, mean = (axles.dataset[name].to_numpy() for name in ("standard_axles", "mean_standard_axles"))
     padding = len(ends) - len(standard)
     dataset = variables.dataset(

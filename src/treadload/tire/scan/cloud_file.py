@@ -15,6 +15,7 @@ from treadload.errors import GeometryError, InputError, error_line, how_to_insta
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
 from treadload.tire.scan.mesh_file import Triangles
+from treadload.tire.scan.panics import without_backtrace
 
 MOST_POINTS = 50_000_000
 FEWEST_POINTS = 1000
@@ -80,6 +81,7 @@ def _of_las(path: Path) -> Triangles:
     _check_las_header(path)
     with (
         reading(f"scan file {path.name!r}", path.suffix[1:].upper()),
+        without_backtrace(),
         laspy.open(path, laz_backend=_unpacker(laspy)) as file,
     ):
         count = int(file.header.point_count)
