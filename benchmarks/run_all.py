@@ -30,6 +30,7 @@ ALL = {
     "normal_contact": {"sizes": (64, 128, 256)},
     "rolling_contact": {"disc_sizes": (100, 200), "tread_sizes": (64,), "shift_sizes": ((128, 0.15),)},
     "belt": {},
+    "ribs": {"repeats": 2},
     "indentation": None,
     "peers": None,
     "scaling": None,

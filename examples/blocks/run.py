@@ -33,7 +33,10 @@ def ribs_of(tire: tl.Tire) -> tl.Tire:
     """The same tread without lateral grooves."""
     assert isinstance(tire.surface, ProfileSurface)
     return tl.Tire.from_profile(
-        replace(tire.surface.profile, lateral=()), inflation_pressure=tire.inflation_pressure, belt=tire.belt, tread="ribs"
+        replace(tire.surface.profile, lateral=()),
+        inflation_pressure=tire.inflation_pressure,
+        belt=tire.belt,
+        tread="ribs",
     )
 
 

@@ -26,7 +26,7 @@ from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.life.passages import solve_passages
 from treadload.life.solve import solve_life
-from treadload.life.wheels import contact_in_state, state
+from treadload.life.wheels import across, contact_in_state, state, wheels_of
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import solve_response
@@ -325,3 +325,37 @@ def test_the_harm_of_an_axle_in_its_group_is_printed_beside_the_french_factor():
     assert group.stats["responses"] == alone.stats["responses"] + 1
     assert np.isnan(alone.dataset["group_factor"]).all()
     assert json.loads(alone.dataset.attrs["groups"]) == []
+
+
+def test_deep_down_wheels_stand_where_the_class_has_them():
+    """A dual's wheels lie off the cells; what each cell holds is shared with the next."""
+    contact = tl.solve_contact(
+        TIRE, Pavement.half_space(Elastic(5e9, 0.35)), tl.Rolling(normal_load=28e3, friction=0.7), spacing=12e-3
+    )
+    row = AxleClass("dual", 1.0, 28e3, 820e3, ((0.655, -0.1725), (0.655, 0.1725)))
+    y = across([contact], [row])
+    wheels = wheels_of([contact], row, y)
+    assert wheels.moved > 1e-3
+    force, moments = 0.0, np.zeros(2)
+    for load in wheels.deep:
+        forces = load.pressure * load.grid.dx * load.grid.dy
+        force += forces.sum()
+        moments += forces.sum(axis=0) @ load.grid.x, forces.sum(axis=1) @ load.grid.y
+    data = contact.dataset
+    pressure = data["pressure"].to_numpy()
+    middle = (pressure.sum(axis=0) @ data["x"].to_numpy(), pressure.sum(axis=1) @ data["y"].to_numpy())
+    middle = np.array(middle) / pressure.sum()
+    assert force == pytest.approx(2 * 28e3, rel=1e-6)
+    np.testing.assert_allclose(moments / force, [0.655 + middle[0], middle[1]], atol=1e-7)
+
+
+@pytest.mark.slow
+def test_the_life_of_a_base_under_a_dual_does_not_move_with_the_cells():
+    """Wheels 340 mm apart are no whole number of cells apart. Measured: 0.03 %; 3.6 % where wheels stand on cells."""
+    years = []
+    for spacing in (6e-3, 3e-3, 1.5e-3):
+        row = AxleClass("dual", 1.0, 28e3, 800e3, ((0.0, -0.17), (0.0, 0.17)))
+        base = (Criterion("base", FatigueLine(90e-6, -0.2), 1),)
+        design = tl.Design(TIRE, ROAD, Traffic((row,), 4e5), Climate.constant(15.0), base, spacing=spacing)
+        years.append(solve_life(design, workers=1).years("base"))
+    np.testing.assert_allclose(years, years[-1], rtol=3e-3)

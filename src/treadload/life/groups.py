@@ -78,5 +78,6 @@ def _one_axle(wheels: Wheels) -> Wheels:
     """The rear axle of a group, where it stands."""
     first = wheels.x[0]
     half = 0.5 * (first[1] - first[0])
-    loads = tuple(load for load in wheels.loads if abs(load.grid.x[0] - first[0]) < half)
-    return replace(wheels, loads=loads, x=wheels.x[:1])
+    kept = [number for number, load in enumerate(wheels.loads) if abs(load.grid.x[0] - first[0]) < half]
+    offsets = tuple(wheels.offsets[number] for number in kept) if wheels.offsets else ()
+    return replace(wheels, loads=tuple(wheels.loads[number] for number in kept), x=wheels.x[:1], offsets=offsets)

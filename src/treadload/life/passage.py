@@ -23,6 +23,7 @@ from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels
 from treadload.response import solve_response
 from treadload.response.basin import SHORTEST, basin_tensors
+from treadload.response.loads import SurfaceLoad
 from treadload.response.several import Question, tensors_of_many
 
 # Cycles of a passage that are kept at least, and for each axle: the road hogs ahead of and behind each.
@@ -185,7 +186,7 @@ def _solved(
     places = [(task.wheels, task.warm.road, levels) for (task, _), levels in zip(tasks, depths, strict=True)]
     solve = basin_tensors if basin else tensors_of_many
     tensors = solve(
-        [Question(wheels.coarse if basin else wheels.joined, road, levels) for wheels, road, levels in places],
+        [Question(_loads(wheels, plane, basin=basin), road, levels) for wheels, road, levels in places],
         x,
         y,
         needs=needs,
@@ -196,6 +197,13 @@ def _solved(
     return [
         solve_response(wheels.loads, road, depths=levels, x=x, y=y, **at).dataset for wheels, road, levels in places
     ]
+
+
+def _loads(wheels: Wheels, plane: Plane, *, basin: bool) -> list[SurfaceLoad]:
+    """Wheels as what is read needs them: on coarse cells around them, where the class has them deep down."""
+    if basin:
+        return wheels.coarse
+    return wheels.deep if plane.stride else wheels.joined
 
 
 def _power(criterion: Criterion) -> float:

@@ -13,6 +13,7 @@ import numpy as np
 from treadload.contact import Contact, Maneuver, solve_contact
 from treadload.damage.traffic import AxleClass
 from treadload.errors import InputError
+from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
@@ -35,7 +36,7 @@ class Wheels:
 
     loads: one per wheel. x: of the cells' centres under the axles, m, one row per axle, from the rear to the front.
     speed: m/s, or None. moved: the largest distance along x or y between where a wheel stands and where the class has
-    it, m.
+    it, m. offsets: for each load, from where it stands to where the class has it along x and y, m; empty: none.
     """
 
     loads: tuple[GridLoad, ...]
@@ -43,11 +44,20 @@ class Wheels:
     speed: float | None
     name: str
     moved: float
+    offsets: tuple[tuple[float, float], ...] = ()
 
     @cached_property
     def joined(self) -> list[SurfaceLoad]:
         """The same loads, fewer where they stand close together."""
         return merged(self.loads)
+
+    @cached_property
+    def deep(self) -> list[SurfaceLoad]:
+        """The same loads where the class has them, shared out among cells, for what lies a few of these deep."""
+        if not self.offsets:
+            return self.joined
+        pairs = zip(self.loads, self.offsets, strict=True)
+        return merged([_shared_out(load, *offset) for load, offset in pairs])
 
     @cached_property
     def coarse(self) -> list[SurfaceLoad]:
@@ -136,18 +146,32 @@ def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
     first, last = GridLoad.from_dataset(contacts[0].dataset), GridLoad.from_dataset(contacts[-1].dataset)
     grid = first.grid
     dx, dy = grid.dx, grid.dy
-    loads, apart = [], []
+    loads, offsets = [], []
     for number, (at_x, at_y) in enumerate(row.wheels):
         print_ = last.mirrored() if len(contacts) > 1 and number in row.mirrored else first
         row_y = round((at_y + print_.grid.y0 - y[0]) / dy)
         near_x, near_y = dx * round(at_x / dx), float(y[0]) + dy * row_y - print_.grid.y0
         loads.append(print_.moved(x=near_x, y=near_y))
-        apart += [abs(near_x - at_x), abs(near_y - at_y)]
+        offsets.append((at_x - near_x, at_y - near_y))
     centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
     return Wheels(
         tuple(loads),
         np.array([grid.x + dx * centre for centre in centres]),
         row.speed,
         row.name,
-        max(apart),
+        float(np.abs(offsets).max()),
+        tuple(offsets),
     )
+
+
+def _shared_out(load: GridLoad, off_x: float, off_y: float) -> GridLoad:
+    """A load moved by less than a cell, m: what each cell holds is shared with the next, by the part of a cell.
+
+    Force and middle are kept; the square of its extent grows by a quarter of a cell's square at most.
+    """
+    grid = load.grid
+    fields = np.pad(load.array, ((0, 0), (1, 1), (1, 1)))
+    for axis, part in ((1, off_y / grid.dy), (2, off_x / grid.dx)):
+        fields = (1 - abs(part)) * fields + abs(part) * np.roll(fields, int(np.sign(part)), axis=axis)
+    wider = Grid(grid.nx + 2, grid.ny + 2, grid.dx, grid.dy, grid.x0 - grid.dx, grid.y0 - grid.dy)
+    return replace(load, grid=wider, pressure=fields[0], traction_x=fields[1], traction_y=fields[2])

@@ -55,7 +55,7 @@ def remedy_tornado(remedies: Source) -> Figure:
         panels += [(name, float(before[k]), after[:, k]) for k, name in enumerate(criteria)]
     figure = new_figure(3.2 + 1.9 * len(panels), 1.7 + 0.27 * len(names))
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
-    rows = np.arange(len(names))[::-1]
+    rows = np.arange(float(len(names)))[::-1]
     for ax, (title, start, ends) in zip(axes, panels, strict=True):
         _panel(ax, rows, start, ends)
         headline(ax, textwrap.fill(title, 20), _years(start))

@@ -18,6 +18,7 @@ from treadload.steps.design import design_of
 from treadload.steps.life import fails
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Scene
+from treadload.tire import Tire
 from treadload.units import Length, Number, Pressure, Share, Speed
 
 _DEFAULTS = RemedySteps()
@@ -65,7 +66,7 @@ class RemediesStep(Step, name="remedies"):
         tire = None if self.tire is None else self.tire.build(case.folder)
         return self._numbers(*self.only, tire=tire)
 
-    def _numbers(self, *only: Kind, tire: object = None) -> RemedySteps:
+    def _numbers(self, *only: Kind, tire: Tire | None = None) -> RemedySteps:
         return RemedySteps(
             thickness=self.thickness, modulus=self.modulus, mixes=self.mixes or {}, wander=self.wander,
             load=self.load, tire=tire, pressure=self.pressure, speed=self.speed, maneuver=self.maneuver,

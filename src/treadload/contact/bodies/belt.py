@@ -26,7 +26,7 @@ from treadload.tire.belt import InflatedBelt, LateralBelt
 
 # Directions over which a coupling that differs along and across is averaged.
 _DIRECTIONS = 16
-# Treads whose fitted images are kept: bodies of equal tires are equal only while they share them, and so do operators.
+# Treads whose fitted images are kept: only with the same images are bodies of equal tires equal and share operators.
 _KEPT = 8
 
 

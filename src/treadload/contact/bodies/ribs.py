@@ -23,7 +23,7 @@ from treadload.tire.ribs import RibGroup
 
 # Wider cells, as those on which a contact is located, share the elements of these, m.
 _WIDEST = 3e-3
-# Tables of rows that are kept, and decimals of a metre to which ends of rows are the same: mirrored ribs share a table.
+# Tables of rows that are kept, and decimals of a metre to which their ends are rounded: mirrored ribs share a table.
 _KEPT, _DECIMALS = 16, 12
 
 

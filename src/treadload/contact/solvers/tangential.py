@@ -236,7 +236,7 @@ def _start(
     axes: Axes,
     tolerance: float,
 ) -> tuple[Array, Array]:
-    """Shear and rigid slips of the solution on half the grid; on cells twice as long where rows are known as wholes."""
+    """Shear and rigid slips of the solution on half the grid; of strips on the same rows of cells twice as long."""
     striped = influence.has_strips
     axes_halved, halved = (ALONG, halve_along) if striped else (BOTH, halve)
     coarse_bound = np.nan_to_num(halved(bound))

@@ -1,7 +1,7 @@
 """Contact of ribs on the columns that touch: a window of the grid without the margin around the contact.
 
-Products with dense blocks cost as many waves as there are columns, and a grid has a margin on all sides. The rounds of
-pressure and shear run on the window; the whole grid judges what they find.
+Products with dense blocks cost as many waves as there are columns, and a grid has a margin on all sides. The rounds
+of pressure and shear run on the window; the whole grid judges what they find.
 """
 
 from __future__ import annotations
@@ -80,7 +80,7 @@ class Window:
         )
 
     def slipping_on_grid(self, slipping: SlippingSolution) -> SlippingSolution:
-        """A solution of the window on the whole grid: no shear elsewhere. The temperature stays that of the window."""
+        """A solution of the window on the whole grid: no shear elsewhere. The temperature stays as it is."""
         part = slipping.tangential
         tangential = replace(
             part,

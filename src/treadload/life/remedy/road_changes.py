@@ -103,7 +103,8 @@ def _use(material: RoadMaterial) -> str:
 
 def _rank(material: RoadMaterial) -> tuple[float, float]:
     modulus = material.modulus(_COMPARED) if isinstance(material, Mix) else material.modulus
-    return round(float(modulus)), float(getattr(material, "epsilon_6", None) or getattr(material, "sigma_6", 0.0))
+    strength: float | None = getattr(material, "epsilon_6", getattr(material, "sigma_6", None))
+    return round(float(modulus)), 0.0 if strength is None else float(strength)
 
 
 def _with_material(design: Design, number: int, material: RoadMaterial) -> Change:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 
 from treadload.contact.maneuver import GRAVITY, Maneuver
 from treadload.damage.traffic import AxleClass, Wander
@@ -97,7 +98,7 @@ def other_speeds(design: Design, steps: RemedySteps) -> Iterator[Change]:
             yield NotApplicable(title, f"{slowest.name} rolls at {(slowest.speed or 0.0) * 3.6:g} km/h")
             continue
         try:
-            yield _with_classes(design, title, "speed", lambda row, by=sign * steps.speed: _faster(row, by))
+            yield _with_classes(design, title, "speed", partial(_faster, by=sign * steps.speed))
         except InputError as error:
             yield NotApplicable(title, str(error))
 
