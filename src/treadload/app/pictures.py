@@ -6,14 +6,11 @@ import base64
 import inspect
 import io
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, cast
+from typing import Protocol, cast
 
 from treadload.composing import BaseResult
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, figures_of
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 Parts = Mapping[str, BaseResult]
 Listed = tuple[str, RegisteredFigure, BaseResult, Drawing]
@@ -64,14 +61,21 @@ def _picture(figure: RegisteredFigure, part: BaseResult, drawing: Drawing) -> di
     """Address and title of a picture; where it cannot be drawn, the reason in place of the address."""
     about = {"title": drawing.title, "wide": figure.wide}
     try:
-        return {**about, "url": as_url(cast("Figure", figure.draw(part, **drawing.options)))}
+        return {**about, "url": as_url(cast("Saved", figure.draw(part, **drawing.options)))}
     # One figure that fails, ours or another package's, does not take the others with it.
     except Exception as error:
         reason = one_line(str(error)).rstrip(".") or type(error).__name__
         return {**about, "url": "", "missing": f"{drawing.title} could not be drawn: {reason}."}
 
 
-def as_url(figure: Figure) -> str:
+class Saved(Protocol):
+    """A figure of whatever library that saves itself as a picture."""
+
+    def savefig(self, fname: io.BytesIO, *, format: str, metadata: Mapping[str, object]) -> object:
+        """Write the picture."""
+
+
+def as_url(figure: Saved) -> str:
     """A figure as the address of a picture that holds it."""
     out = io.BytesIO()
     figure.savefig(out, format="svg", metadata={"Date": None})
