@@ -13,6 +13,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Columns, Holds, Source
+from treadload.damage.border import on_the_border
 from treadload.damage.cracks import (
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
@@ -256,6 +257,7 @@ def assess(
         )
     evaluated = float(near.value[at]) if opens else 0.0
     caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
+    caveats += on_the_border(alone, field)
     caveats += bottoms_without_depth(alone)
     caveats += filled_ribs(alone, data["depth"].to_numpy())
     dataset = variables.dataset(
