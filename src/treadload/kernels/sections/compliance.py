@@ -84,7 +84,7 @@ class CellTable:
 
     def at(self, k: Array) -> Array:
         """Compliance (m, 3 strips, 3 strips) at waves k (m,) ≥ 0, 1/m; beyond those of the table it falls as 1/k."""
-        return np.real(self._combined(self._weights(k)))
+        return np.asarray(self._combined(self._weights(k)).real)
 
     def on_lattice(self, cells: int, dx: float, ahead: float = 0.0) -> Array | ComplexArray:
         """Mean displacement of cells of length dx, m, by uniform loads on others, periodic after so many cells.
@@ -123,8 +123,9 @@ class CellTable:
 
     def _combined(self, weights: Array | ComplexArray) -> Array | ComplexArray:
         """Sums (m, 3 strips, 3 strips) of the compliance at the waves of the table by weights (m, n)."""
-        summed: Array | ComplexArray = np.matmul(weights, self.compliance.reshape(self.waves.size, -1))
-        return summed.reshape(-1, *self.compliance.shape[1:])
+        flat = self.compliance.reshape(self.waves.size, -1)
+        sums: Array | ComplexArray = weights @ flat
+        return sums.reshape(-1, *self.compliance.shape[1:])
 
     @cached_property
     def _spline(self) -> CubicSpline:
