@@ -99,7 +99,8 @@ def harm_of(law: FatigueLaw, turns: Array) -> Array:
     """Damage (ny,) of one passage by a law, from peak, valley, peak, ... (turn, ny), see `as_turns`.
 
     A law that has `allowable_cycles(amplitude, mean)` takes every cycle by these; one without reads peaks: a cycle
-    does what its peak does from rest, less what its valley does, D = Σ 1/N(peak) - Σ 1/N(valley).
+    does what its peak does from rest, less what its valley does, D = Σ 1/N(peak) - Σ 1/N(valley). Of a law that is
+    `by_peak`, a limit, the largest peak alone counts.
     """
     by_cycle: Callable[[Array, Array], Array] | None = getattr(law, "allowable_cycles", None)
     if by_cycle is not None:
@@ -107,6 +108,8 @@ def harm_of(law: FatigueLaw, turns: Array) -> Array:
         bottoms = np.concatenate([np.zeros((1, turns.shape[1])), turns[1::2]])
         cycles: Array = (1 / np.asarray(by_cycle(0.5 * (tops - bottoms), 0.5 * (tops + bottoms)))).sum(axis=0)
         return cycles
+    if getattr(law, "by_peak", False):
+        turns = turns.max(axis=0, keepdims=True)
     # Turns and places where nothing is read are many.
     filled = np.flatnonzero((turns > 0).any(axis=1))
     count = int(filled[-1]) + 1 if len(filled) else 1

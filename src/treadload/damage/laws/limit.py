@@ -31,6 +31,8 @@ class Limit:
     doubt: ClassVar[str] = ""
     verified: ClassVar[bool] = True
     includes_wander: ClassVar[bool] = False
+    by_peak: ClassVar[bool] = True
+    """A passage exceeds the limit or does not, however often."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "limit", self.reads.number(self.limit))
