@@ -13,7 +13,7 @@ EXAMPLE = Path(__file__).parents[2] / "examples" / "top_down"
 
 @pytest.mark.slow
 def test_top_down(tmp_path, capsys):
-    results = runpy.run_path(str(EXAMPLE / "run.py"))["main"](tmp_path, 20e-3, 1, ["bus_stop"])
+    results = runpy.run_path(str(EXAMPLE / "run.py"))["main"](tmp_path, 16e-3, 1, ["bus_stop"])
     said = capsys.readouterr().out
     assert "Bus stop, half-space" in said
     assert "Bus stop, belt" in said

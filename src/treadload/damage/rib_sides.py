@@ -19,6 +19,8 @@ SHALLOW = 0.02
 STRAINS = ((27, 45), (33, 121))
 FEWER = (10, 700)
 EVALUATED = 5
+# That of the bus stop of `examples/top_down`, whose braking front axle does most: layer and ribs, microstrain.
+BRAKED = (117, 140)
 _WHO = {
     "filled": "the tread has circumferential grooves, and this tire has them filled, as a layer or a half-space",
     "unknown": "whether the tread has circumferential ribs is not known, and this tire has none with free sides",
@@ -40,8 +42,8 @@ def sides_in_words(sides: Iterable[str]) -> list[str]:
                 f"structure at 40 °C: {FEWER[0]} to {FEWER[1]} times fewer load repetitions at a slope of -0.2, "
                 "without a bound where the layer compresses the surface (25 °C). That strain lies where no principal "
                 "stress is tensile. Where one is, the strain, which an assessment of tensile strain evaluates, fell "
-                f"by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; give the tire a belt and "
-                'tread = "ribs"'
+                f"by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; where a bus brakes it "
+                f'rose from {BRAKED[0]} to {BRAKED[1]}; give the tire a belt and tread = "ribs"'
             ]
     return []
 

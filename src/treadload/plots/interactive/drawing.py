@@ -28,12 +28,12 @@ _LINE = {"contact": ("muted", 1.0), "stick": ("stick", 2.0), "slip": ("slip", 1.
 def figure(traces: Sequence[Trace], layout: dict[str, Any], theme: Theme) -> Figure:
     """A Figure of plotly. Raises InputError where plotly is not installed."""
     try:
-        from plotly import graph_objects
+        import plotly.graph_objects
     except ImportError as error:
         raise InputError(
             f"interactive figures need plotly, which is not installed; {how_to_install('app')}, or draw with .plot"
         ) from error
-    return graph_objects.Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
+    return plotly.graph_objects.Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
 
 
 def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, Any]) -> Trace:
