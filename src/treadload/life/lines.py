@@ -76,10 +76,11 @@ class Lines:
         core = np.flatnonzero(np.abs(y[rows][near] - y) <= wheels.cell) if plane.wide else np.arange(len(y))
         strips = Strips.of(y[rows], y[core]) if fine else None
         evaluated = y[core] if basin is None else np.concatenate([y[core], basin.rows])
-        ordered = np.argsort(evaluated, kind="stable")
+        # Beside wide cells a line of the basin may lie on one of the core, which is kept.
+        lines, ordered = np.unique(np.round(evaluated, 9), return_index=True)
         onto = straight(y[rows], y[core])
         nearest = nearest_of(places[order], y)
-        return cls(rows, y, order, places[order], nearest, core, strips, onto, evaluated[ordered], ordered)
+        return cls(rows, y, order, places[order], nearest, core, strips, onto, lines, ordered)
 
 
 def straight(places: Array, y: Array) -> sparse.csr_array:
