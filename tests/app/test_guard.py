@@ -217,6 +217,9 @@ def test_the_pages_of_another_browser_are_out_of_reach(keys):
         assert mine.receive_text() == keys.owners["page-of-one"]
     with pytest.raises(WebSocketDisconnect), other.websocket_connect(socket, headers={"origin": HERE}):
         pass
+    # A page that was given up while its tab was away: the socket opens, its handshake fails, and the tab loads anew.
+    with one.websocket_connect(socket.replace("page-of-one", "gone"), headers={"origin": HERE}) as late:
+        assert late.receive_text() == keys.owners["page-of-one"]
 
 
 def test_what_is_sent_is_bounded(keys, monkeypatch):

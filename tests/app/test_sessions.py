@@ -10,7 +10,7 @@ import pytest
 
 from treadload.app import connections, engines
 from treadload.app.engines import Engine, EngineLost, Engines
-from treadload.app.sessions import Sessions
+from treadload.app.sessions import TAB_GONE, Sessions
 
 
 class Process:
@@ -68,7 +68,7 @@ def alive(made):
 def test_a_session_ends_after_its_last_tab_with_its_process_and_files(started, tmp_path):
     async def tried():
         held = Engines()
-        sessions = Sessions(held, tmp_path, lingers=10.05)
+        sessions = Sessions(held, tmp_path, lingers=TAB_GONE + 0.05)
         session, left = sessions.tab("a")
         _, also_left = sessions.tab("a")
         await session.engine("bench")

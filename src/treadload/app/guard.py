@@ -110,6 +110,10 @@ class Keys:
         name = self.sessions[secret] = self.sessions.pop(secret)
         return name
 
+    def is_owned(self, client: str) -> bool:
+        """True for a page that is there."""
+        return client in self.owners
+
     def may_use(self, client: str, session: str) -> bool:
         """True where a page belongs to a session."""
         owner = self.owners.get(client)
@@ -195,7 +199,8 @@ class Guard:
         named = [client[1]] if client else []
         if scope["path"].startswith(_SOCKET):
             query = parse_qs(scope.get("query_string", b"").decode("latin-1"))
-            named += query.get("client_id", [])
+            # Nobody has the page of a tab that was away too long: the handshake fails, and the tab loads it again.
+            named += [name for name in query.get("client_id", []) if self._keys.is_owned(name)]
         if any(not self._keys.may_use(name, session) for name in named):
             return Refusal(403, "this page belongs to another browser, or the server was started anew; load it again")
         return None

@@ -11,8 +11,8 @@ from pathlib import Path
 from treadload.app.engines import Engines
 from treadload.app.session import Session
 
-TAB_GONE = 10.0
-"""How long the tab of a lost connection is waited for, s."""
+TAB_GONE = 20.0
+"""How long the tab of a lost connection is waited for, s; two fifths of it for an answer on a busy machine."""
 LINGERS = 60.0
 """How long a session outlasts the connection of its last tab, s."""
 
