@@ -26,7 +26,7 @@ import math
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import numpy as np
 
@@ -38,6 +38,8 @@ from treadload.kernels.sections import CellTable
 # Loads on strips repeat after no less than this, m: at half of it a rib feels nothing of them, so that grids of any
 # length have the same operator.
 _PERIOD = 0.6
+# Blocks of strips that are kept while operators of a grid are made, some MB each.
+_KEPT = 8
 
 
 @dataclass(frozen=True)
@@ -138,10 +140,7 @@ class Strip:
 
         ahead: distance of the displacement from the cells, m.
         """
-        whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
-        block = self.table.on_lattice(whole, dx, ahead) / self.modulus
-        if whole > cells:
-            block = shortened(block, whole, cells)
+        block = _unit_block(self.table, cells, dx, ahead) / self.modulus
         if not self.mirrored:
             return block
         count = self.rows.size
@@ -149,6 +148,19 @@ class Strip:
         parts[:, 1] *= -1
         parts[:, :, :, 1] *= -1
         return parts.reshape(block.shape)
+
+
+@lru_cache(maxsize=_KEPT)
+def _unit_block(table: CellTable, cells: int, dx: float, ahead: float) -> Array | ComplexArray:
+    """Block of a strip for E = 1 Pa, not to be written to: mirrored ribs share a table, and so its blocks."""
+    whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
+    lattice = _lattice(table, whole, dx, ahead)
+    return shortened(lattice, whole, cells) if whole > cells else lattice
+
+
+@lru_cache(maxsize=_KEPT)
+def _lattice(table: CellTable, cells: int, dx: float, ahead: float) -> Array | ComplexArray:
+    return table.on_lattice(cells, dx, ahead)
 
 
 class Body(ABC):
