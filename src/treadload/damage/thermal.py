@@ -15,7 +15,7 @@ from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.materials import Mix, Thermorheological
 from treadload.materials.published import published
-from treadload.materials.relaxing import relaxation_of
+from treadload.materials.relaxing import relaxation_of, silent_on_time
 from treadload.units import PerDegree
 
 # Of length, 1/K: what tests of mixes give lies between 2 and 3.5e-5.
@@ -67,12 +67,8 @@ class Thermal:
             return ""
         if not isinstance(material, Mix):
             return f"{material} does not say how it relaxes; {_REMEDY}"
-        if len(material.frequencies) < 2:
-            return (
-                f"mix {material.name!r} is tabulated at {material.frequencies[0]:g} Hz only, which does not say "
-                f"how it relaxes; {_REMEDY}"
-            )
-        return ""
+        silent = silent_on_time(material)
+        return f"{silent}; {_REMEDY}" if silent else ""
 
     def of(self, material: object) -> tuple[Thermorheological, float, float]:
         """How a bituminous material relaxes, its expansion, 1/K, and the misfit of its model to its table.

@@ -32,6 +32,13 @@ class Relaxation:
     misfit: float
 
 
+def silent_on_time(mix: Mix) -> str:
+    """Why the table of a mix says nothing of time, in words; empty where `relaxation_of` finds how it relaxes."""
+    if len(mix.frequencies) > 1:
+        return ""
+    return f"mix {mix.name!r} is tabulated at {mix.frequencies[0]:g} Hz only, which does not say how it relaxes"
+
+
 @lru_cache(maxsize=64)
 def relaxation_of(mix: Mix) -> Relaxation:
     """The Huet-Sayegh model and the Arrhenius shift nearest to a mix's table over temperature and frequency.
@@ -40,11 +47,9 @@ def relaxation_of(mix: Mix) -> Relaxation:
     at some 30 °C more, so that a table to 40 °C reaches the daily course of temperatures to 10 °C and no further.
     Raises InputError for a mix tabulated at one frequency, which says nothing of time.
     """
-    if len(mix.frequencies) < 2:
-        raise InputError(
-            f"mix {mix.name!r} is tabulated at {mix.frequencies[0]:g} Hz only, which does not say how it relaxes; "
-            "name a viscoelastic material with a shift that does, in a case relaxation"
-        )
+    silent = silent_on_time(mix)
+    if silent:
+        raise InputError(f"{silent}; name a viscoelastic material with a shift that does, in a case relaxation")
     measured = np.log(np.array(mix.moduli))
     warmth = np.broadcast_to(np.array(mix.temperatures), measured.shape)
     omega = 2 * math.pi * np.array(mix.frequencies)[:, None]
