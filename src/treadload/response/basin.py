@@ -12,17 +12,15 @@ from dataclasses import replace
 import numpy as np
 import xarray as xr
 
-from treadload import variables
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import BASIN
 from treadload.materials.kinds import limit_of, upright
 from treadload.pavement import Pavement
-from treadload.response.fields import tensor_fields
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, SurfaceLoad
 from treadload.response.material import windows
-from treadload.response.several import Question, Side, answers, components_of
+from treadload.response.several import Question, Side, answers, components_of, needed_fields
 from treadload.response.superposition import merged
 
 BEYOND = 0.080
@@ -107,16 +105,7 @@ def basin_tensors(
         centred.append(replace(question, depths=depths))
     view = View(x, y, components=components, accuracy=BASIN)
     solved = answers(centred, view, side=side, speed=speed, mean_over=None)
-    tensors = []
-    for question, answer in zip(questions, solved, strict=True):
-        fields = tensor_fields(answer.fields.stress, answer.fields.strain)
-        tensors.append(
-            xr.Dataset(
-                {name: (*field, variables.attributes(name)) for name, field in fields.items() if name in wanted},
-                variables.dataset({}, {"depth": list(question.depths), "y": y, "x": x}).coords,
-            )
-        )
-    return tensors
+    return needed_fields(questions, solved, x, y, wanted)
 
 
 def _coarse(load: GridLoad) -> GridLoad:

@@ -6,7 +6,7 @@ spread over as much.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -78,12 +78,19 @@ def tensors_of_many(
         return None
     view = View(x, y, components=components, accuracy=READING)
     solved = answers(questions, view, side=side, speed=speed, mean_over=mean_over)
+    return needed_fields(questions, solved, x, y, wanted)
+
+
+def needed_fields(
+    questions: Sequence[Question], solved: Sequence[Answer], x: Array, y: Array, wanted: Container[str]
+) -> list[xr.Dataset]:
+    """Wanted components of stress and strain, over (depth, y, x), of what was solved for each question."""
     # Coordinates are made once: many small fields cost less than they.
     places = {
         depths: variables.dataset({}, {"depth": list(depths), "y": y, "x": x}).coords
         for depths in {tuple(question.depths.tolist()) for question in questions}
     }
-    tensors = [tensor_fields(response.fields.stress, response.fields.strain) for response in solved]
+    tensors = [tensor_fields(answer.fields.stress, answer.fields.strain) for answer in solved]
     return [
         xr.Dataset(
             {name: (*field, variables.attributes(name)) for name, field in fields.items() if name in wanted},
