@@ -47,8 +47,9 @@ def strips(width: float, number: int) -> Array:
     return np.stack([edges[:-1], edges[1:]], axis=1)
 
 
+@lru_cache(maxsize=4)
 def pressed(rib: PressedRib) -> tuple[Array, Array]:
-    """Pressure of the strips and their shear q_y on the rib, Pa (cells,).
+    """Pressure of the strips and their shear q_y on the rib, Pa (cells,), not to be written to.
 
     Raises ConvergenceError where pressure and shear do not come to rest.
     """
