@@ -27,6 +27,7 @@ LEAVES = (
     "plausible",
     "files",
     "describing",
+    "spelling",
     "figure_registry",
     "citations",
     "composing",

@@ -13,6 +13,7 @@ from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from treadload.rows import Row, as_text, blocks_of, notes_of, table_of
+from treadload.spelling import printable
 
 # Lines of the table of a result in a notebook that stand unfolded.
 _ROWS = 14
@@ -75,9 +76,16 @@ class Described(ABC):
         """What it states, row by row, see `treadload.rows`; a row "verdict" with its sentence is the last."""
 
     def summary(self) -> str:
-        """The result in a screenful: its title and question, its rows, its warnings."""
-        text = as_text(self.rows(), self.warnings)
-        return "\n".join(part for part in (title_of(self), text) if part)
+        """The result in a screenful: its title and question, its rows, its warnings.
+
+        Characters that standard output cannot show are spelt in ASCII, so that the text can be printed anywhere.
+        """
+        return printable(self.text())
+
+    def text(self) -> str:
+        """The summary with all its characters, for files."""
+        rows = as_text(self.rows(), self.warnings)
+        return "\n".join(part for part in (title_of(self), rows) if part)
 
     def __str__(self) -> str:
         return self.summary()

@@ -56,6 +56,16 @@ app.add_typer(studies.app, name="study")
 @app.callback(invoke_without_command=True)
 def _root(
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
+    ascii_only: Annotated[
+        bool,
+        # Eager: a page of help that follows is in ASCII, too.
+        typer.Option(
+            "--ascii",
+            help="Print ASCII characters only, as the environment variable TREADLOAD_ASCII=1 does.",
+            is_eager=True,
+            callback=ending.set_ascii,
+        ),
+    ] = False,
 ) -> None:
     if version:
         shell.out.print(f"treadload {__version__}")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import io
 import os
 import signal
 import sys
@@ -10,6 +11,8 @@ import threading
 import time
 from collections.abc import Iterator
 from typing import Any, TextIO
+
+from treadload.spelling import SPELT
 
 DONE, FAILED, WRONG = 0, 1, 2
 NOTHING = "no file was changed but those listed as written; the same command starts again"
@@ -44,6 +47,8 @@ def orderly() -> Iterator[None]:
     # A command before it in the same process, as in tests, may have been interrupted.
     _Signal.since, _Signal.is_answered = None, False
     _LOST.clear()
+    for stream in (sys.stdout, sys.stderr):
+        set_encoding(stream, ascii_only=os.environ.get("TREADLOAD_ASCII", "0") not in ("", "0"))
     if threading.current_thread() is threading.main_thread():
         for number in _ASKING:
             # `nohup` and shells hand on what is to be ignored.
@@ -73,6 +78,30 @@ def orderly() -> Iterator[None]:
 
 # Why a stream took no more.
 _LOST: list[OSError] = []
+
+
+def set_encoding(stream: TextIO | None, *, ascii_only: bool = False) -> None:
+    """What a stream of the command line writes: UTF-8 into files and pipes, else what its terminal can show.
+
+    A terminal keeps its encoding, and so does a stream whose encoding is set by PYTHONIOENCODING; characters that it
+    lacks are spelt. ascii_only: nothing but ASCII is written.
+    """
+    if not isinstance(stream, io.TextIOWrapper):
+        return
+    encoding = stream.encoding
+    if ascii_only:
+        encoding = "ascii"
+    elif not stream.isatty() and not os.environ.get("PYTHONIOENCODING"):
+        encoding = "utf-8"
+    stream.reconfigure(encoding=encoding, errors=SPELT)
+
+
+def set_ascii(ascii_only: bool) -> bool:
+    """Print nothing but ASCII from now on, where it is asked for; serves as the callback of the option."""
+    if ascii_only:
+        for stream in (sys.stdout, sys.stderr):
+            set_encoding(stream, ascii_only=True)
+    return ascii_only
 
 
 def say(text: str, stream: TextIO | None) -> None:

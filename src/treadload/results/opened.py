@@ -154,10 +154,10 @@ class Results(Study):
         """The tree that they come from."""
         return self.tree
 
-    def summary(self) -> str:
+    def text(self) -> str:
         """The results: as the study summed them up, else part by part."""
         whole = self.tree.attrs.get("summary")
-        return str(whole) if whole else "\n\n".join(self[name].summary() for name in self)
+        return str(whole) if whole else "\n\n".join(self[name].text() for name in self)
 
     def __repr__(self) -> str:
         title = f" {self.title!r}:" if self.title else ""

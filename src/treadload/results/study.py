@@ -36,9 +36,9 @@ class Study(Described):
             for row in part.rows()
         )
 
-    def summary(self) -> str:
+    def text(self) -> str:
         """The results in a screenful, part by part."""
-        return "\n\n".join(part.summary() for part in self.parts.values())
+        return "\n\n".join(part.text() for part in self.parts.values())
 
     @property
     def warnings(self) -> tuple[str, ...]:

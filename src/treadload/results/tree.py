@@ -190,7 +190,7 @@ def _about(part: BaseResult, owner: str) -> dict[str, str]:
     if kind not in part.sections:
         rows = part.rows()
         about["warnings"] = json.dumps(list(part.warnings), ensure_ascii=False)
-        about |= {"summary": part.summary(), "heading": part.heading}
+        about |= {"summary": part.text(), "heading": part.heading}
         about["rows"] = as_json(rows)
         answers = {row.key: str(row.value) for row in rows if not row.group}
         about |= {name: answers[key] for name, key in _ANSWERS.items() if key in answers}

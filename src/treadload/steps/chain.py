@@ -52,12 +52,12 @@ class Result(Study):
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
         road, season = self.case.source.road_of(self.case, self.parts)
-        return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.summary())
+        return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.text())
 
-    def summary(self) -> str:
+    def text(self) -> str:
         """One screen: what loads the road, its layers, and all further results but those for figures alone."""
         quiet = {group for step in self.case.steps if step.is_quiet for group in step.makes}
-        texts = [part.summary() for group, part in self.parts.items() if group not in quiet]
+        texts = [part.text() for group, part in self.parts.items() if group not in quiet]
         if self.case.source.states_road and self.road is not None:
             # The road stands behind what loads it.
             texts.insert(1 if "contact" in self.parts else 0, road_in_rows(self.road, self.case))
