@@ -9,7 +9,6 @@ from importlib import resources
 from pathlib import Path
 
 from treadload.case import Case
-from treadload.damage.cracks import in_a_cell
 from treadload.errors import InputError
 from treadload.files import write_whole
 from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
@@ -18,6 +17,17 @@ from treadload.results import save_results
 from treadload.steps import Result, run
 
 CASES = ("free", "tractive")
+# Rows of the table, by the part of a result that states them.
+_COMPARED = {
+    "contact": (
+        "normal_load", "tractive_force", "net_area", "largest_pressure", "largest_traction", "creepage_x",
+        "slip_fraction",
+    ),
+    "damage": (
+        "evaluation", "largest_principal_strain", "largest_in_plane_strain", "worst_strain", "worst_passes",
+        "worst_crack_orientation",
+    ),
+}  # fmt: skip
 
 Progress = Callable[[str], None]
 
@@ -88,32 +98,10 @@ def _figures(results: dict[str, Result], folder: Path) -> list[Path]:
 
 
 def comparison(results: list[Result]) -> list[tuple[str, ...]]:
-    """Rows (quantity, value of every result), heading first."""
+    """Rows (quantity, value of every result), heading first: what the results state of themselves by these keys."""
     rows: list[tuple[str, ...]] = [("", *(result.case.title for result in results))]
-
-    def add(quantity: str, values: list[str]) -> None:
-        rows.append((quantity, *values))
-
-    contacts = [result.contact for result in results if result.contact is not None]
-    add("normal load", [f"{float(c.dataset.normal_load) / 1e3:.1f} kN" for c in contacts])
-    add("tractive force", [f"{abs(float(c.dataset.tractive_force)) / 1e3:.1f} kN" for c in contacts])
-    add("contact area", [f"{c.area * 1e6:.0f} mm²" for c in contacts])
-    add("peak pressure", [f"{float(c.dataset.pressure.max()) / 1e3:.0f} kPa" for c in contacts])
-    shear = [float((c.dataset.traction_x**2 + c.dataset.traction_y**2).max()) ** 0.5 for c in contacts]
-    add("peak shear", [f"{value / 1e3:.1f} kPa" for value in shear])
-    add("creepage", [f"{float(c.dataset.creepage_x):z.4f}" for c in contacts])
-    add("slip zone", [f"{100 * c.slip_fraction:.1f} %" for c in contacts])
-    verdicts = [result.verdict for result in results]
-    if all(verdict is not None for verdict in verdicts):
-        data = [verdict.dataset for verdict in verdicts if verdict is not None]
-        add(
-            "extension in space, mean over 10 mm",
-            [f"{d.attrs['largest_principal_strain'] * 1e6:.0f} microstrain" for d in data],
-        )
-        add(
-            "extension in the plane, mean over 10 mm",
-            [f"{d.attrs['largest_in_plane_strain'] * 1e6:.0f} microstrain" for d in data],
-        )
-        add("allowable passes", [f"{float(d.worst_passes):.2g}" for d in data])
-        add("first crack", [in_a_cell(verdict.orientation) for verdict in verdicts if verdict is not None])
+    for part, keys in _COMPARED.items():
+        stated = [{row.key: row for row in result.parts[part].rows() if not row.group} for result in results]
+        for key in keys:
+            rows.append((stated[0][key].label, *(table[key].text for table in stated)))
     return rows
