@@ -67,7 +67,7 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
         below = tl.solve_response(contact, other, depths=[0.06], x=points, y=points).dataset
         extension[name] = 1e6 * float(below["in_plane_strain_1"].max())
     told = ", ".join(f"{name} {value:.0f}" for name, value in extension.items())
-    print(f"\nlargest extension below the wearing course (microstrain): {told}")
+    print(f"\nlargest tensile strain below the wearing course (microstrain): {told}")
     rubs = tl.life.solve_interfaces(contact, tl.damage.delaminate(road, 0, faces["rubbing"]), x=points, y=points)
     save(sliding(rubs, contact=contact), folder / "sliding.png")
 

@@ -1,7 +1,7 @@
 """A truck wheel turned on the spot: the torque it takes, and what it does to the road.
 
 The 315/80R22.5 tread stands under 32.5 kN on asphalt, μ = 0.7, and turns to the right until it slides, then
-back. Prints torque and slip against the angle and the surface's largest extension before and after the turn;
+back. Prints torque and slip against the angle and the surface's largest tensile strain before and after the turn;
 writes the figures.
 
     python examples/parking_turn.py [folder] [--coarse]
@@ -73,7 +73,7 @@ def main(folder: Path, *, coarse: bool = False) -> dict[str, float]:
     print()
     print(f"{'':44s} {'standing':>10s} {'turned':>10s}")
     print(
-        f"{'largest extension at the surface (microstrain)':44s} {largest['standing']:8.1f} {largest['turned']:10.1f}"
+        f"{'largest tensile strain, surface (microstrain)':44s} {largest['standing']:9.1f} {largest['turned']:10.1f}"
     )
     print(
         f"torque at {math.degrees(LARGEST):g}°: {fraction:.1%} of what slides; a loop to and fro costs {lost:.0f} J"

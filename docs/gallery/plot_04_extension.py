@@ -2,7 +2,7 @@
 Where the surface is torn, and which way
 ========================================
 
-Largest extension of the road's surface under a driving wheel. The strokes lie along the extension; a crack opens
+Largest tensile strain of the road's surface under a driving wheel. The strokes lie along the strain; a crack opens
 across them.
 """
 

@@ -51,7 +51,7 @@ def surface(folder: Path, spacing: float) -> dict[str, dict[str, float]]:
                 "mean": 1e6 * float(verdict.dataset.worst_strain),
                 "passes": float(verdict.dataset.worst_passes),
             }
-    print(f"largest extension of asphalt, 5400 MPa, half-space; microstrain; cells of {1e3 * spacing:g} mm")
+    print(f"largest tensile strain of asphalt, 5400 MPa, half-space; microstrain; cells of {1e3 * spacing:g} mm")
     print(f"{'':22s}{'surface, space':>16s}{'plane':>8s}{'20 mm deep':>12s}{'mean over 10 mm':>17s}{'passes':>10s}")
     for name, row in rows.items():
         print(

@@ -57,7 +57,7 @@ def layered_response(contact: tl.contact.Contact) -> xr.Dataset:
 
 
 def extensions(response: tl.response.Response) -> tuple[float, float]:
-    """Largest extension, three-dimensional and in the horizontal plane, microstrain."""
+    """Largest tensile strain, three-dimensional and in the horizontal plane, microstrain."""
     data = response.dataset
     return float(data.principal_strain_1.max()) * 1e6, float(data.in_plane_strain_1.max()) * 1e6
 
@@ -114,7 +114,7 @@ def main(folder: Path) -> dict[str, float]:
     print(WHY)
     print("\nTractive rolling:")
     print(worst.summary())
-    print("\nHow the largest extension at the surface moves (microstrain):")
+    print("\nHow the largest tensile strain at the surface moves (microstrain):")
     print(f"{'':34s} {'free 3-D':>9s} {'in-plane':>9s} {'tract. 3-D':>11s} {'in-plane':>9s}")
     for name, *values in sensitivity():
         print(f"{name:34s} {values[0]:9.1f} {values[1]:9.1f} {values[2]:11.1f} {values[3]:9.1f}")

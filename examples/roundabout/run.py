@@ -3,14 +3,14 @@
 The paper announces the study of "tearing phenomena in singular road points (turns, roundabouts)". Here a 315/80R22.5
 wheel rolls straight, climbs, brakes, locks, turns in a roundabout, also as the outer wheel that the vehicle leans on,
 and is turned on the spot as in parking; on the paper's asphalt as a half-space, and on a structure of the French
-catalogue at 15 °C. For each: the largest extension at the surface and below it, which way its cracks run, and the
-passes that the fatigue line allows.
+catalogue at 15 °C. For each: the largest tensile strain at the surface and below it, which way its cracks run, and
+the load repetitions that the fatigue line allows.
 
 At the surface, where ribs end and slide, the exact extension has no bound: its largest value grows with every finer
 cell and the passes fall with it, as in the paper. The verdict reads its mean over a cube of 10 mm, the size of the
 mix's stones, which has one, in the horizontal plane, where it opens cracks downwards, and only where something is
-tensile: in a stiff course that bends, the largest extension in space is vertical below the wheel, where everything
-is compressed, and opens no crack.
+tensile: in a stiff course that bends, the largest tensile strain in space is vertical below the wheel, where
+everything is compressed, and opens no crack.
 
     python examples/roundabout/run.py [folder] [--coarse]
 """
@@ -82,7 +82,7 @@ def rose_of(name: str, response: tl.response.Response, line: tl.FatigueLine) -> 
 def table(
     wheels: dict[str, tl.contact.Contact], responses: dict[str, tl.response.Response], line: tl.FatigueLine
 ) -> xr.Dataset:
-    """Prints a line for each maneuver; returns largest extensions, passes and shares."""
+    """Prints a line for each maneuver; returns largest tensile strains, passes and shares."""
     print(
         f"{'':15s} {'load':>5s} {'Q/P':>5s} {'slip':>5s} | {'read':>6s} {'in plane':>9s} {'10 mm deep':>11s} | "
         f"{'width':>5s} {'along':>6s} {'oblique':>8s} {'across':>7s} | {'passes':>8s}"

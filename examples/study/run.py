@@ -2,9 +2,9 @@
 
 A driven truck wheel on a structure of the French catalogue: load, inflation pressure, friction, tractive force and
 temperature vary together over a Latin hypercube of 2000 cases. They are solved into a store, `study.zarr`, which goes
-on where it was interrupted. Of two readings a Gaussian process is made: the largest extension 20 mm below the surface
-and the largest extension in the plane at the base of the asphalt, 210 mm deep. The surrogate is saved beside the
-study, with its error by cross-validation, the box that it was made in, and the versions that made it.
+on where it was interrupted. Of two results a Gaussian process is made: the largest tensile strain 20 mm below the
+surface and the largest tensile strain in the plane at the base of the asphalt, 210 mm deep. The surrogate is saved
+beside the study, with its error by cross-validation, the box that it was made in, and the versions that made it.
 
 It refuses what it does not know: inputs outside the box, and wheels that would slide as a whole, Q > μP, for which no
 case could be solved. Close to sliding it answers with a warning.
@@ -44,7 +44,7 @@ RANGES = {
 LOAD, FRICTION, FORCE = 0, 2, 3
 # Reading → depth, m, and what it is in a figure.
 READINGS = {
-    "largest_extension": (0.02, "largest extension, 20 mm deep"),
+    "largest_extension": (0.02, "largest tensile strain, 20 mm deep"),
     "largest_in_plane_extension": (0.21, "extension at the base, 210 mm deep"),
 }
 # A wheel that uses more of its friction than this slides nearly everywhere: few cases near it, and a kink.

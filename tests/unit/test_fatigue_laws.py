@@ -135,7 +135,7 @@ def test_extrapolation_is_said_with_its_numbers():
     # ε₆ · 100^0.2 = 251 microstrain allows 1e4 passes; 1000 microstrain allows 10.
     (above,) = warnings_of(line, np.array([1e-3, 1e-6]))
     assert "1000 microstrain is above 251 microstrain" in above
-    assert "10 passes are extrapolated" in above
+    assert "10 load repetitions are extrapolated" in above
     (below,) = warnings_of(line, 10e-6)
     assert "10 microstrain is below 39.8 microstrain" in below
     assert warnings_of(line, -1e-3) == ()

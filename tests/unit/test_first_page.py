@@ -178,11 +178,11 @@ def test_a_response_names_the_largest_of_every_quantity_and_denies_cracks_where_
     at = np.linspace(-0.06, 0.06, 7)
     pressed = tl.solve_response(tl.UniformDisc(0.15, 8e5), road, depths=[0.0, 0.02], x=at, y=at).dataset
     page = first_of_response(pressed)
-    assert page.heading == "What is largest where, by whom"
+    assert page.heading == "Largest values by criterion"
     rows = {row[0]: row for row in page.rows}
     # No two of them are called the same.
     assert len(rows) == len(page.rows)
-    assert {"extension strain, three-dimensional", "extension strain, in the horizontal plane"} <= set(rows)
+    assert {"tensile strain, three-dimensional", "tensile strain, in the horizontal plane"} <= set(rows)
     assert rows["octahedral shear stress"][1] == "Lytton, with the mean stress"
     # A table for people has no names of code in it.
     assert not any("_" in cell for row in page.rows for cell in row)
@@ -194,7 +194,7 @@ def test_a_response_names_the_largest_of_every_quantity_and_denies_cracks_where_
     road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
     torn = tl.solve_response(drag, road, depths=[0.0], x=wide, y=wide).dataset
     page = first_of_response(torn)
-    assert page.heading == "Where it would crack, by whom"
+    assert page.heading == "Predicted cracking by criterion"
     tension = next(row for row in page.rows if row[0] == "tensile stress")
     assert tension[4] == "transverse"
     value = float(tl.damage.compute_quantities(torn, ["horizontal_tension"])["horizontal_tension"].max())

@@ -158,11 +158,11 @@ def test_nothing_cracks_where_nothing_is_tensile():
 @pytest.mark.parametrize(
     ("law", "more", "words"),
     [
-        (ShearFatigue(-0.2), {}, "reads the utilisation of the bond; take a law for an extension"),
+        (ShearFatigue(-0.2), {}, "is for the utilisation of the bond; take a law for a tensile strain"),
         (
             MepdgTopDown(5e9, 0.15, 0.06, 0.11),
             {"depth": 0.06},
-            "reads the extension strain at the surface, got depth",
+            "reads the tensile strain at the surface, got depth",
         ),
         (FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3), {}, "give depth= of that bottom"),
         (FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3), {"depth": 0.02}, "the road has 0.06 m"),

@@ -318,7 +318,7 @@ def test_the_energy_ratio_reads_a_quantity(response):
         ),
         (
             lambda: ShearFatigue(-0.2, reads=EXTENSION),
-            "the fatigue of a bond reads its utilisation, got the extension",
+            "the fatigue of a bond reads its utilisation, got the tensile strain",
         ),
         (lambda: Criterion("a", ShearFatigue(-0.2), place="interface"), "needs the strength of the bond"),
         (
@@ -335,7 +335,7 @@ def test_the_energy_ratio_reads_a_quantity(response):
             r"friction_angle = 0\.7.*fitted with friction_angle = 0\.6; give friction_angle = 0\.6",
         ),
         (lambda: Extension("sideways"), 'strain must be "principal" or "in-plane"'),
-        (lambda: tl.assess(None, FatigueLine(1e-4, -0.2, MazarsStrain())), "a verdict reads an extension, but"),
+        (lambda: tl.assess(None, FatigueLine(1e-4, -0.2, MazarsStrain())), "evaluates a tensile strain, but"),
     ],
 )
 def test_a_reading_where_another_is_meant_is_refused(make, words):
@@ -351,7 +351,7 @@ def test_a_reading_where_another_is_meant_is_refused(make, words):
         (
             'law = "tracker"\ntau_6 = "400 kPa"',
             'law = "shell"\nreads = "mean_stress"',
-            "hold for the extension strain",
+            "hold for the tensile strain",
         ),
         ('counted = "50 %"', "count = 1", "did you mean 'counted'"),
         ('reading_6 = "200 kPa"', 'reading_6 = "200 mm"', "200 mm"),

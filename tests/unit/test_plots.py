@@ -354,11 +354,11 @@ def test_nothing_to_see_is_said(driving):
     contact["pressure"] = contact.pressure * 0
     assert "no contact" in _texts(pressure(contact))
     response["principal_strain_1"] = response.principal_strain_1 * 0 - 1e-6
-    assert "no extension here" in _texts(strain_directions(response))
+    assert "no tensile strain here" in _texts(strain_directions(response))
     verdict["allowable_passes"] = verdict.allowable_passes * np.inf
     assert "no limit" in _texts(passes(verdict))
     verdict["worst_strain"], verdict["worst_passes"] = -1e-6, np.inf
-    assert "no extension" in _texts(fatigue_line(verdict))
+    assert "no tensile strain" in _texts(fatigue_line(verdict))
 
 
 def test_a_measured_footprint_needs_only_its_pressure(driving):

@@ -191,7 +191,7 @@ def test_profiles_have_a_panel_for_each_strain_and_a_colour_for_each_place(above
     places = {"centre": (0.0, 0.0), "edge": (0.1, 0.0)}
     figure = strain_profiles(above, places, epsilon_6=90e-6)
     titles = [ax.get_title(loc="left") for ax in figure.axes]
-    assert titles == ["Along travel", "Across travel", "Largest extension"]
+    assert titles == ["Along travel", "Across travel", "Largest tensile strain"]
     assert {ax.get_xlabel() for ax in figure.axes} == {"microstrain"}
     assert [t.get_text() for t in figure.legends[0].get_texts()] == [
         "centre: x = 0.0, y = 0.0 mm",

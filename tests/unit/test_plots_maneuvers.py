@@ -84,7 +84,7 @@ def test_the_rose_says_what_it_shows():
     said = texts(trace_rose(roses, ["some", "none"]))
     assert "and 25 % horizontal" in said
     assert "no crack that far" in said
-    assert "share of the road that extends beyond 24 microstrain" in said
+    assert "share of the road with tensile strain beyond 24 microstrain" in said
     assert "travel" in said
     assert "45° right" in said
 

@@ -70,7 +70,7 @@ def test_roads_stand_on_one_scale_beside_their_profiles(bonded, free):
     assert profile.get_title(loc="left") == "Along travel"
     assert [t.get_text() for t in figure.legends[0].get_texts()] == ["Bonded", "Free"]
     bars = [c.get_ylabel() for ax in figure.axes for c in ax.child_axes]
-    assert bars == ["largest extension (microstrain)"]
+    assert bars == ["largest tensile strain (microstrain)"]
 
 
 def test_free_layers_bend_each_on_its_own(bonded, free):

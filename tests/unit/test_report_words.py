@@ -120,7 +120,7 @@ def test_every_number_of_every_table_has_a_unit_that_can_be_shown():
 
 def test_numbers_of_a_life_have_their_units():
     rows = _rows([_case(LIFE)])
-    assert rows["Traffic", "passes in the first year"] == ("per year", ("60\u202f000",))
+    assert rows["Traffic", "load repetitions in the first year"] == ("per year", ("60\u202f000",))
     assert rows["Traffic", "annual growth of the traffic"] == ("%", ("2",))
     assert rows["Traffic", "design life"] == ("years", ("20",))
     assert rows["Traffic", "wander: deviation"] == ("mm", ("250",))
@@ -151,10 +151,10 @@ def test_axles_and_criteria_are_tables():
 
     assert criteria.columns == ("criterion", "law", "layer", "place", "what it reads", "parameters given")
     base, platform, surface = criteria.rows
-    plane = "extension in the horizontal plane"
+    plane = "tensile strain in the horizontal plane"
     assert base == (
         "base, bottom-up", "french bituminous", "EB-GB3", "bottom", plane,
-        "risk 5 %, ε₆, strain at a million passes 90 microstrain",
+        "risk 5 %, ε₆, strain at a million load repetitions 90 microstrain",
     )  # fmt: skip
     # What a law reads by itself is said.
     assert platform == (
@@ -165,7 +165,7 @@ def test_axles_and_criteria_are_tables():
         "vertical strain on the subgrade",
         "those of the layer",
     )
-    assert surface[2:5] == ("EB-BBSG3", "top", "three-dimensional extension")
+    assert surface[2:5] == ("EB-BBSG3", "top", "three-dimensional tensile strain")
 
 
 def test_a_criterion_tells_its_law_as_it_was_solved():

@@ -204,5 +204,5 @@ def test_extrapolation_stands_in_the_summary():
 
 
 def test_a_law_that_reads_no_extension_is_refused():
-    with pytest.raises(InputError, match="reads the vertical strain on the subgrade"):
+    with pytest.raises(InputError, match="is for the vertical strain on the subgrade"):
         local(field([unit(0)], [1e-4]), FrenchSubgrade())

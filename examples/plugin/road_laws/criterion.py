@@ -18,7 +18,7 @@ class TestTrack(PowerLaw):
     power: Number
     shift: Number = 1.0
 
-    # The quantity that the law is a law of: the largest extension.
+    # The quantity that the law is a law of: the largest tensile strain.
     reads = FatigueLine.reads
     source: ClassVar[str] = "our test track, 2025"
     doubt: ClassVar[str] = "one mix, one temperature"

@@ -39,7 +39,7 @@ class LifePage(Page):
             self._hint = ui.label("Solve the case to see how long the road lasts; each change solves it anew.")
             self._hint.classes("note").props('id="hint"')
             with ui.element("div").classes("tools"):
-                self._by = ui.select({"": "the first to fail"}, value="", label="who does it, and when, by",
+                self._by = ui.select({"": "the first to fail"}, value="", label="governing criterion and time, by",
                                      on_change=lambda event: self._choose(str(event.value or "")))  # fmt: skip
                 self._by.props('dense outlined options-dense id="by"')
             self._pictures = ui.element("div").classes("pictures").props('id="pictures"')

@@ -14,8 +14,8 @@ from treadload.app.figure_place import Place
 # Of a line as plotly holds it.
 _ENDS = ("x0", "y0", "x1", "y1")
 _SECTIONS = {
-    "principal_strain_1": "largest extension, three-dimensional",
-    "in_plane_strain_1": "largest extension, horizontal", "strain_zz": "vertical strain",
+    "principal_strain_1": "largest tensile strain, three-dimensional",
+    "in_plane_strain_1": "largest tensile strain, horizontal", "strain_zz": "vertical strain",
     "von_mises_stress": "von Mises stress",
     "mean_stress": "mean stress", "stress_zz": "vertical stress",
 }  # fmt: skip

@@ -137,8 +137,8 @@ def envelope(
         "crack_orientation": (dims, orientation(angle, dip, oblique_tolerance)),
     }
     warnings = [
-        f"{cut.sum()} of {cut.size} points have their largest extension at the first or last x of the response: the "
-        "passage is cut short; solve it further out"
+        f"{cut.sum()} of {cut.size} points have their largest tensile strain at the first or last x of the "
+        "response: the passage is cut short; solve it further out"
     ]
     return variables.dataset(
         fields,

@@ -54,7 +54,7 @@ class Extension(Quantity):
 
     strain: Reading = "in-plane"
 
-    words = "extension strain"
+    words = "tensile strain"
     shown = "microstrain"
     source = "Materials 2021, 14, 2117"
     calibrated = "fatigue lines and their shifts to the road are measured for it; near the surface no law is"
@@ -121,7 +121,7 @@ def _in_plane() -> Extension:
 class SurfaceExtension(Extension):
     """Largest extension of the surface of the road. strain: "in-plane" or "principal"."""
 
-    words = "extension strain at the surface"
+    words = "tensile strain at the surface"
     calibrated = "MEPDG's top-down cracking was fitted to it at points under uniform discs, from memory"
     where = SURFACE
     name = "surface_extension"
@@ -132,7 +132,7 @@ class SurfaceExtension(Extension):
 class BottomExtension(Extension):
     """Largest extension at the bottom of the asphalt. strain: "in-plane" or "principal"."""
 
-    words = "extension strain at the bottom of the asphalt"
+    words = "tensile strain at the bottom of the asphalt"
     calibrated = "the French method, MEPDG, the Asphalt Institute and Shell are fitted to it"
     where = BOTTOM
     name = "bottom_extension"

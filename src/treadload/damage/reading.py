@@ -101,7 +101,8 @@ def check_law(line: PowerLaw) -> None:
     """Raise InputError for a law that reads no extension."""
     if not line.reads.extends:
         raise InputError(
-            f"a verdict reads an extension, but {line} reads the {line.reads}; take a law for an extension"
+            f"an assessment evaluates a tensile strain, but {line} is for the {line.reads}; take a law "
+            "for a tensile strain"
         )
 
 
@@ -380,7 +381,7 @@ def _depths_of(data: xr.Dataset, line: PowerLaw) -> tuple[Array, list[str]]:
         return depths, []
     left = ", ".join(f"{1e3 * z:g}" for z in depths[~inner])
     return depths[inner], [
-        f"the depths {left} mm lie below the top layer, to which the law applies, and are not read; give depth= "
+        f"the depths {left} mm lie below the top layer, to which the law applies, and are not evaluated; give depth= "
         "for one of them and the law of its layer"
     ]
 

@@ -252,8 +252,9 @@ def assess(
     unread = float(field.extension.max())
     if opens and unread > _NOTABLE * float(near.value[at]):
         caveats.append(
-            f"the largest extension, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: no "
-            f"crack opens there, and it is not read; it would allow {float(line.allowable_passes(unread)):.2g} passes"
+            f"the largest tensile strain, {unread * 1e6:.1f} microstrain, lies where no principal stress is tensile: "
+            "no crack opens there, and it is not evaluated; it would allow "
+            f"{float(line.allowable_passes(unread)):.2g} load repetitions"
         )
     evaluated = float(near.value[at]) if opens else 0.0
     caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))

@@ -17,17 +17,12 @@ from treadload.results import save_results
 from treadload.steps import Result, run
 
 CASES = ("free", "tractive")
-# Rows of the table, by the part of a result that states them.
-_COMPARED = {
-    "contact": (
-        "normal_load", "tractive_force", "net_area", "largest_pressure", "largest_traction", "creepage_x",
-        "slip_fraction",
-    ),
-    "damage": (
-        "evaluation", "largest_principal_strain", "largest_in_plane_strain", "worst_strain", "worst_passes",
-        "worst_crack_orientation",
-    ),
-}  # fmt: skip
+# Rows of the table, as contacts and verdicts state them.
+_COMPARED = (
+    "normal_load", "tractive_force", "net_area", "largest_pressure", "largest_traction", "creepage_x",
+    "slip_fraction", "evaluation", "largest_principal_strain", "largest_in_plane_strain", "worst_strain",
+    "worst_passes", "worst_crack_orientation",
+)  # fmt: skip
 
 Progress = Callable[[str], None]
 
@@ -99,9 +94,7 @@ def _figures(results: dict[str, Result], folder: Path) -> list[Path]:
 
 def comparison(results: list[Result]) -> list[tuple[str, ...]]:
     """Rows (quantity, value of every result), heading first: what the results state of themselves by these keys."""
-    rows: list[tuple[str, ...]] = [("", *(result.case.title for result in results))]
-    for part, keys in _COMPARED.items():
-        stated = [{row.key: row for row in result.parts[part].rows() if not row.group} for result in results]
-        for key in keys:
-            rows.append((stated[0][key].label, *(table[key].text for table in stated)))
-    return rows
+    parts = [(result.contact, result.verdict) for result in results]
+    stated = [{row.key: row for part in both if part is not None for row in part.rows()} for both in parts]
+    heading = ("", *(result.case.title for result in results))
+    return [heading, *((stated[0][key].label, *(table[key].text for table in stated)) for key in _COMPARED)]

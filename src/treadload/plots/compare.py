@@ -89,14 +89,14 @@ def _strains(cases: Sequence[xr.Dataset]) -> Iterator[Drawing]:
             if all(VARIABLE[strain] in data for data in cases):
                 yield Drawing(
                     {"depth": depth, "strain": strain},
-                    f"Largest extension strain, {NAMES[strain]}, side by side",
+                    f"Largest tensile strain, {NAMES[strain]}, side by side",
                     f"Drawn: {DRAWN[strain]}, {place_in_words(depth)}, on one colour scale; rings mark the peaks. "
                     f"{WHAT[strain]}",
                 )
 
 
 @comparison(
-    "Response", title="Largest extension strain, side by side", caption="", when=_strains
+    "Response", title="Largest tensile strain, side by side", caption="", when=_strains
 )  # fmt: skip
 @styled
 def compare_strain(
@@ -118,7 +118,7 @@ def compare_strain(
         headline(ax, labels[number], strain_in_numbers(planes[number], strain, Limits(0, scale.high)), _LETTERS)
         return mesh
 
-    label = f"largest extension {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
+    label = f"largest tensile strain {place_in_words(depth)}, {NAMES[strain]} (microstrain)"
     return _side_by_side([Plan.of(data) for data in planes], draw, label, scale)
 
 

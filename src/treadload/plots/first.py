@@ -27,7 +27,7 @@ _NUMBERS = 3
 @figure(
     "Life", name="first", title="All criteria side by side", wide=True, order=8,
     caption="Left: where each is worst, by its number in the order of failing. Right: its largest reading over what "
-    "its law allows; beyond the dashed line it fails within the passes counted.",
+    "its law allows; beyond the dashed line it fails within the load repetitions counted.",
     when=lambda data: {"design_utilisation", "read_depth"} <= set(data) and "proposed" in data.attrs,
 )  # fmt: skip
 @styled

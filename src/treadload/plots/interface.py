@@ -117,7 +117,7 @@ def _in_numbers(interface: xr.Dataset, plan: Plan, row: int, column: int) -> str
     side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
     text += f"shear {shear:.0f} kPa {side}"
     if "parting_passes" in interface:
-        text += f"; fails after {power_of_ten(float(interface['parting_passes']))} passes"
+        text += f"; fails after {power_of_ten(float(interface['parting_passes']))} load repetitions"
     return text
 
 

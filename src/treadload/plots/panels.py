@@ -74,20 +74,20 @@ def strain_panels(
     scale = limits(values)
     mesh = draw_cells(upper, plan, values, sequential("strain"), scale)
     draw_contact(upper, contact or response)
-    colour_bar(mesh, upper, "largest extension (microstrain)", scale)
-    title = f"Largest extension {place_in_words(depth)}"
+    colour_bar(mesh, upper, "largest tensile strain (microstrain)", scale)
+    title = f"Largest tensile strain {place_in_words(depth)}"
     kind = "three-dimensional" if strain == "principal" else "horizontal plane"
     headline(upper, f"{title}, {kind}", strain_in_numbers(data, strain, scale))
     row, column = peak_of(values)
     if values[row, column] > 0:
         mark_peak(upper, float(plan.x[column]), float(plan.y[row]), measure(float(values[row, column])))
     else:
-        empty_note(upper, "no extension here")
+        empty_note(upper, "no tensile strain here")
     upper.tick_params(labelbottom=True)
     upper.set_xlabel(X_LABEL)
     _directions(lower, data, strain, plan, values)
     draw_contact(lower, contact or response)
-    headline(lower, "Its direction", f"of the extension, {NAMES[strain]}; where it exceeds 2 % of the peak")
+    headline(lower, "Its direction", f"of the tensile strain, {NAMES[strain]}; where it exceeds 2 % of the peak")
     for ax in (upper, lower):
         travel_arrow(ax)
     return figure
@@ -99,7 +99,7 @@ def _directions(ax: Axes, data: xr.Dataset, strain: Strain, plan: Plan, values: 
     ax.set_ylabel(Y_LABEL)
     largest = float(np.nanmax(values))
     if not largest > 0:
-        empty_note(ax, "no extension here")
+        empty_note(ax, "no tensile strain here")
         return
     along_x, along_y = horizontal(data, strain)
     drawn = strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * largest, plan.span / _ALONG)

@@ -28,8 +28,8 @@ COMPONENTS: dict[str, tuple[str, str, str]] = {
     "xx": ("strain_xx", "Along travel", r"strain $\varepsilon_{xx}$"),
     "yy": ("strain_yy", "Across travel", r"strain $\varepsilon_{yy}$"),
     "zz": ("strain_zz", "Vertical", r"strain $\varepsilon_{zz}$"),
-    "in-plane": ("in_plane_strain_1", "Largest extension, horizontal", "strain in the horizontal plane"),
-    "principal": ("principal_strain_1", "Largest extension", "three-dimensional strain"),
+    "in-plane": ("in_plane_strain_1", "Largest tensile strain, horizontal", "strain in the horizontal plane"),
+    "principal": ("principal_strain_1", "Largest tensile strain", "three-dimensional strain"),
 }
 _WORST: dict[str, tuple[str, str]] = {
     "principal": ("principal_strain_1", "three-dimensional"),
@@ -101,7 +101,7 @@ def profile(
     frame_profile(ax, down)
     draw_interfaces(ax, layers, float(down[-1]))
     name_layers(ax, layers, float(down[-1]))
-    ax.set_xlabel("largest extension (microstrain)")
+    ax.set_xlabel("largest tensile strain (microstrain)")
     handles, _ = ax.get_legend_handles_labels()
     legend_below(ax, handles, columns=2)
     x, y = float(data["x"][column]) * MM, float(data["y"][row]) * MM

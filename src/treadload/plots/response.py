@@ -59,10 +59,11 @@ STRAINS: tuple[Strain, ...] = ("principal", "in-plane")
 _HOLDS = ", which at the surface includes the shear of the tire itself"
 DRAWN = {"principal": "the three-dimensional strain", "in-plane": "the strain in the horizontal plane"}
 WHAT = {
-    "principal": "Strokes lie along the largest extension; where a principal stress is tensile a crack opens across "
-    "them. A stroke shortens to a point where the extension turns out of the page. White: no extension.",
-    "in-plane": "Strokes lie along the extension; where a principal stress is tensile, vertical cracks open across "
-    "them. White: no extension in the plane.",
+    "principal": "Strokes lie along the largest tensile strain; where a principal stress is tensile a crack opens "
+    "across them. A stroke shortens to a point where the tensile strain turns out of the page. White: no tensile "
+    "strain.",
+    "in-plane": "Strokes lie along the tensile strain; where a principal stress is tensile, vertical cracks open "
+    "across them. White: no tensile strain in the plane.",
 }
 
 
@@ -78,7 +79,7 @@ def _planes(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Draw
             holds = _HOLDS if depth == 0 and strain == "principal" else ""
             yield Drawing(
                 {"depth": depth, "strain": strain, "contact": beside.get("contact")},
-                f"Largest extension strain {deep}, {NAMES[strain]}",
+                f"Largest tensile strain {deep}, {NAMES[strain]}",
                 f"Drawn: {DRAWN[strain]}{holds}. {WHAT[strain]}",
             )
 
@@ -113,7 +114,7 @@ def assessed_depth(plane: xr.Dataset | None) -> str:
 
 
 @figure(
-    "Response", main=True, title="Largest extension strain", order=0,
+    "Response", main=True, title="Largest tensile strain", order=0,
     when=_planes,
 )  # fmt: skip
 @styled
@@ -138,9 +139,9 @@ def strain_directions(
     figure, ax = figure_and_axes(ax, 6.8, min(9.0, max(2.8, 5.0 * plan.aspect + 1.25)))
     scale = limits(values)
     mesh = draw_strain(ax, data, strain, scale, contact or response)
-    colour_bar(mesh, ax, f"largest extension, {NAMES[strain]} (microstrain)", scale)
+    colour_bar(mesh, ax, f"largest tensile strain, {NAMES[strain]} (microstrain)", scale)
     kind = "three-dimensional" if strain == "principal" else "horizontal plane"
-    headline(ax, f"Largest extension {place_in_words(depth)}, {kind}", strain_in_numbers(data, strain, scale))
+    headline(ax, f"Largest tensile strain {place_in_words(depth)}, {kind}", strain_in_numbers(data, strain, scale))
     return figure
 
 
@@ -164,7 +165,7 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
         draw_strokes(ax, strokes(values, along_x, along_y, plan.x, plan.y, _SIGNIFICANT * span.high))
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(peak))
     else:
-        empty_note(ax, "no extension here")
+        empty_note(ax, "no tensile strain here")
     travel_arrow(ax)
     return mesh
 
@@ -211,7 +212,9 @@ def depth_slice(
     mesh = draw_section(ax, section, scale)
     colour_bar(mesh, ax, "microstrain", scale, beyond=name_layers(ax, section.layers, section.bottom))
     title = "Section along travel" if section.name == "x" else "Section across travel"
-    detail = f"largest extension, three-dimensional, at {section.cut_in_words}; peak {np.nanmax(section.values):.1f}"
+    detail = (
+        f"largest tensile strain, three-dimensional, at {section.cut_in_words}; peak {np.nanmax(section.values):.1f}"
+    )
     detail += " microstrain" + ("; colours stop below" if scale.clipped else "")
     headline(ax, title, detail)
     return figure

@@ -76,14 +76,14 @@ def compare_roads(
         row, column = divmod(number, columns)
         ax = figure.add_subplot(grid[row, column])
         mesh = draw_section(ax, section, scale)
-        headline(ax, label, "largest extension " * (columns == 1) + _in_numbers(section, scale), _LETTERS)
+        headline(ax, label, "largest tensile strain " * (columns == 1) + _in_numbers(section, scale), _LETTERS)
         if column:
             ax.set_ylabel("")
         if row < rows - 1 and number + columns < len(sections):
             ax.set_xlabel("")
         panels.append(ax)
     # Beside one flat section there is room for the unit only.
-    words = "microstrain" if columns == 1 else "largest extension (microstrain)"
+    words = "microstrain" if columns == 1 else "largest tensile strain (microstrain)"
     colour_bar(mesh, panels[columns - 1], words, scale)
     ax = figure.add_subplot(grid[:, columns])
     if rows == 1:

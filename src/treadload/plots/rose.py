@@ -192,7 +192,7 @@ def _by_word(case: xr.Dataset) -> dict[str, float]:
 def _share_of(cases: Sequence[xr.Dataset]) -> str:
     weights = {str(case.attrs.get("weight", "area")) for case in cases}
     thresholds = {float(case.attrs.get("threshold", 0.0)) for case in cases}
-    what = "share of the damage of a pass" if weights == {"damage"} else "share of the road that extends"
+    what = "share of the damage of a pass" if weights == {"damage"} else "share of the road with tensile strain"
     if len(thresholds) == 1 and (least := thresholds.pop()) > 0:
         what += f" beyond {least * MICRO:.3g} microstrain"
     return what

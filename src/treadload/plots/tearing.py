@@ -53,7 +53,9 @@ def tearing(
     scale = limits(extension)
     mesh = draw_strain(right, below, strain, scale, contact)
     colour_bar(mesh, right, "microstrain", scale)
-    title_of_map = f"Largest extension {place_in_words(depth)}" + (", horizontal" if strain == "in-plane" else "")
+    title_of_map = f"Largest tensile strain {place_in_words(depth)}" + (
+        ", horizontal" if strain == "in-plane" else ""
+    )
     headline(right, title_of_map, strain_in_numbers(below, strain, scale), _LETTERS)
     if "friction_work" in data:
         # Over the length of contact, the work per area and length travelled is the work per area of road.

@@ -12,8 +12,8 @@ from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, headline, styled
 
 _PANELS = {
-    "largest_extension": "Largest extension",
-    "largest_in_plane_extension": "Largest horizontal extension",
+    "largest_extension": "Largest tensile strain",
+    "largest_in_plane_extension": "Largest horizontal tensile strain",
     "largest_vertical_shear": "Largest vertical shear strain",
 }
 

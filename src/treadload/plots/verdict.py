@@ -72,12 +72,13 @@ def _drawn(data: xr.Dataset) -> str:
 
 @comparison(
     "Verdict", title="Fatigue line, all cases",
-    caption="Each case stands where its worst strain meets its line; below it, the passes that the line allows.",
+    caption="Each case stands where its worst strain meets its line; below it, the load repetitions "
+    "that the line allows.",
 )  # fmt: skip
 @figure(
     "Verdict", title="Fatigue line", wide=True,
-    caption=lambda data: f"The case stands where {_drawn(data)} at its worst meets the line; below it, the passes "
-    "allowed.",
+    caption=lambda data: f"The case stands where {_drawn(data)} at its worst meets the line; below it, the load "
+    "repetitions allowed.",
 )  # fmt: skip
 @styled
 def fatigue_line(
@@ -124,8 +125,8 @@ def fatigue_line(
     drawn = [float(v) * MICRO for line in lines for v in line.allowable_strain(passes)]
     ax.set_ylim(min([*drawn, *strains]) / 1.25, max([*drawn, *strains]) * 1.25)
     _plain_strains(ax)
-    ax.set_xlabel("passes, N")
-    ax.set_ylabel("largest extension (microstrain)")
+    ax.set_xlabel("load repetitions, N")
+    ax.set_ylabel("largest tensile strain (microstrain)")
     ax.grid(True, which="major")
     ax.spines[["top", "right"]].set_visible(False)
     reads = sorted({_READS.get(str(c.attrs.get("strain", "principal")), "") for c in cases})
@@ -134,9 +135,9 @@ def fatigue_line(
 
 
 @figure(
-    "Verdict", main=True, title="Allowable passes",
-    caption=lambda data: f"From {_drawn(data)}, under {under(data)}. The darkest places bear the fewest passes; "
-    "white ones a million times more, or have no extension.",
+    "Verdict", main=True, title="Allowable load repetitions",
+    caption=lambda data: f"From {_drawn(data)}, under {under(data)}. The darkest places allow the fewest load "
+    "repetitions; white ones a million times more, or have no tensile strain.",
 )  # fmt: skip
 @styled
 def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
@@ -151,31 +152,31 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     finite = values[np.isfinite(values)]
     if not finite.size:
         frame_plan(ax, plan)
-        empty_note(ax, "no extension here:\nthe line sets no limit")
-        headline(ax, "Allowable passes")
+        empty_note(ax, "no tensile strain here:\nthe line sets no limit")
+        headline(ax, "Allowable load repetitions")
         return figure
     least = float(finite.min())
     _check_drawn([least])
     low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
     mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
     mesh.set_norm(LogNorm(low, high))
-    bar = colour_bar(mesh, ax, "allowable passes", Limits(low, high, True))
+    bar = colour_bar(mesh, ax, "allowable load repetitions", Limits(low, high, True))
     decades = [low * 10.0**k for k in range(_DECADES + 1)]
     bar.set_ticks(decades, labels=[_decade(passes) for passes in decades])
     bar.minorticks_off()
     row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
     mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
-    headline(ax, "Allowable passes", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
+    headline(ax, "Allowable load repetitions", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
     travel_arrow(ax)
     return figure
 
 
 @figure(
     "Verdict", title="Cracks to expect",
-    caption=lambda data: f"Traces on the surface of cracks across the largest extension, read from {_drawn(data)}: "
-    "longitudinal along travel, transverse across it, oblique between; planes nearer to the horizontal than 45° as "
-    "points, where the road splits and no crack runs down. Drawn where a principal stress is tensile and the strain "
-    "is significant; the ring marks the largest such strain.",
+    caption=lambda data: f"Traces on the surface of cracks across the largest tensile strain, evaluated from "
+    f"{_drawn(data)}: longitudinal along travel, transverse across it, oblique between; planes nearer to the "
+    "horizontal than 45° as points, where the road splits and no crack runs down. Drawn where a principal stress is "
+    "tensile and the strain is significant; the ring marks the largest such strain.",
 )  # fmt: skip
 @styled
 def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
@@ -192,7 +193,7 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
     mesh.set_alpha(0.45)
     reads = _READS.get(str(data.attrs.get("strain", "principal")), "")
-    colour_bar(mesh, ax, f"extension, {reads} (microstrain)", scale)
+    colour_bar(mesh, ax, f"tensile strain, {reads} (microstrain)", scale)
     angle, dip = plane(data, "crack_angle"), plane(data, "crack_dip")
     classes = plane(data, "crack_orientation").astype(int)
     flat = np.where(np.isnan(angle), 0.0, np.sin(np.nan_to_num(dip)))
@@ -212,12 +213,15 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(opening[row, column])))
         splits = bool((codes == HORIZONTAL).all())
         title = "Planes that split, nearer to the horizontal" if splits else "Cracks to expect"
-        headline(ax, title, f"traces across the largest extension, {reads}; first at the ring")
+        headline(ax, title, f"traces across the largest tensile strain, {reads}; first at the ring")
     else:
         empty_note(
-            ax, "no extension here" if not np.nanmax(values) > 0 else "nothing is tensile\nwhere the road extends"
+            ax,
+            "no tensile strain here"
+            if not np.nanmax(values) > 0
+            else "no tensile stress\nwhere the strain is tensile",
         )
-        headline(ax, "No crack to expect", f"extension, {reads}")
+        headline(ax, "No crack to expect", f"tensile strain, {reads}")
     travel_arrow(ax)
     return figure
 
@@ -236,7 +240,7 @@ def _check_drawn(passes: Sequence[float]) -> None:
     if beyond:
         low, high = _DRAWN
         raise InputError(
-            f"{beyond[0]:.2g} passes lie beyond all that is drawn, {low:g} to {high:g}; read the numbers"
+            f"{beyond[0]:.2g} load repetitions lie beyond all that is drawn, {low:g} to {high:g}; read the numbers"
         )
 
 
@@ -259,7 +263,7 @@ def _mark_million(ax: Axes, line: FatigueLine, low: float) -> None:
     strain = line.epsilon_6 * MICRO
     ax.plot([low, _MILLION, _MILLION], [strain, strain, 1e-3], color=MUTED, lw=0.8, ls=(0, (2, 2)), zorder=1)
     ax.plot([_MILLION], [strain], "s", ms=5, color=INK, zorder=4)
-    _note(ax, _MILLION, strain, f"ε₆ = {strain:g} at 10⁶ passes", (7, 5), INK)
+    _note(ax, _MILLION, strain, f"ε₆ = {strain:g} at 10⁶ load repetitions", (7, 5), INK)
 
 
 def _crowded(passes: Sequence[float], low: float, high: float) -> bool:
@@ -272,10 +276,10 @@ def _mark_case(ax: Axes, passes: float, strain: float, name: str, colour: str, l
     title = f"{plain(name)}: " if name else ""
     # A space first: matplotlib leaves labels that begin with an underscore out of its legends.
     if not (strain > 0 and math.isfinite(passes)):
-        ax.plot([], [], "o", color=colour, label=f" {title}no extension")
+        ax.plot([], [], "o", color=colour, label=f" {title}no tensile strain")
     else:
         ax.plot([low, passes, passes], [strain, strain, 1e-3], color=colour, lw=1.0, alpha=0.75, zorder=1.5)
-        words = f"{title}{strain:.3g} microstrain", f"{power_of_ten(passes)} passes"
+        words = f"{title}{strain:.3g} microstrain", f"{power_of_ten(passes)} load repetitions"
         ax.plot(
             [passes], [strain], "o", ms=7.5, color=colour, mec="white", mew=1.2, zorder=5,
             label=" " + ", ".join(words) if crowded else "_",

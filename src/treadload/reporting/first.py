@@ -113,7 +113,7 @@ def first_of_response(data: xr.Dataset) -> FirstPage | None:
         "tensile. No law ranks them: what is calibrated, and for what, stands in the last column."
     )
     heading = (
-        "Where it would crack, by whom" if any(opens for _, opens in rows_found) else "What is largest where, by whom"
+        "Predicted cracking by criterion" if any(opens for _, opens in rows_found) else "Largest values by criterion"
     )
     return FirstPage(heading, "", _RESPONSE, rows, note)
 

@@ -133,7 +133,7 @@ def _read(quantity: Quantity | None, strain: object) -> str:
     if not quantity.extends:
         return quantity.words
     space = (strain or quantity.strain) == "principal"
-    return "three-dimensional extension" if space else "extension in the horizontal plane"
+    return "three-dimensional tensile strain" if space else "tensile strain in the horizontal plane"
 
 
 def _layer(case: ReportCase, wanted: object, usual: int | None) -> str:

@@ -81,7 +81,7 @@ class PowerLaw(ABC):
     reads: Quantity
     # What sentences call it, and its reading of a million passes.
     noun: ClassVar[str] = "fatigue law"
-    symbol: ClassVar[str] = "what allows a million passes"
+    symbol: ClassVar[str] = "what allows a million load repetitions"
     source: ClassVar[str]
     end_of_life: ClassVar[str]
     includes_wander: ClassVar[bool] = False
@@ -207,7 +207,7 @@ class PowerLine(PowerLaw):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "reading_6", self.reads.number(self.reading_6))
-        positive(f"reading_6, of the {self.reads},", self.at_a_million, remedy="it allows a million passes")
+        positive(f"reading_6, of the {self.reads},", self.at_a_million, remedy="it allows a million load repetitions")
         check_slope(self.slope)
 
     @property
@@ -237,7 +237,7 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
         beyond, bound = ("above", high) if largest > high else ("below", low)
         caveats.append(
             f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the limit of its "
-            f"range; {law.allowable_passes(largest):.2g} passes are extrapolated"
+            f"range; {law.allowable_passes(largest):.2g} load repetitions are extrapolated"
         )
     return tuple(caveats)
 

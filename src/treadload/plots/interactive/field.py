@@ -146,8 +146,9 @@ def extension_field(
         drawn = np.concatenate([lines.middles, lines.halves], axis=1)
     return _thinned(
         Field(
-            VARIABLE[strain], f"largest extension, {NAMES[strain]}", "microstrain", plan, values, "strain", scale,
-            f"Largest extension {place_in_words(depth)}, {NAMES[strain]}", _outline(contact or response),
+            VARIABLE[strain], f"largest tensile strain, {NAMES[strain]}", "microstrain", plan, values, "strain",
+            scale,
+            f"Largest tensile strain {place_in_words(depth)}, {NAMES[strain]}", _outline(contact or response),
             strokes=drawn, peak=_peak(plan, values, "microstrain at a point"),
         )
     )  # fmt: skip
@@ -236,7 +237,7 @@ def damage_field(verdict: Source) -> Field:
     peak = None
     if any_damage:
         row, column = peak_of(values)
-        peak = (float(plan.x[column]), float(plan.y[row]), f"{float(passes[row, column]):.2g} passes")
+        peak = (float(plan.x[column]), float(plan.y[row]), f"{float(passes[row, column]):.2g} load repetitions")
     return _thinned(
         Field(
             "damage", "damage of one passage", "of failure", plan, values, "strain", scale,
@@ -254,7 +255,7 @@ def choices(source: Source) -> dict[str, str]:
         "shear": "shear, its arrows, stick and slip" if {"traction_x", "traction_y"} <= variables else "",
         "state": "stick and slip" if "state" in variables else "",
         **{
-            name: f"largest extension, {NAMES[strain]}, its directions"
+            name: f"largest tensile strain, {NAMES[strain]}, its directions"
             for strain, name in VARIABLE.items()
             if {name, "principal_direction_1" if strain == "principal" else "in_plane_angle_1"} <= variables
         },

@@ -41,7 +41,7 @@ def places_of(source: Source) -> list[Place]:
         passes = float(variables["worst_passes"])
         x, y, depth = (float(variables[f"worst_{name}"]) for name in ("x", "y", "depth"))
         how = ", ".join(str(data.attrs[key]) for key in ("strain", "reading") if key in data.attrs)
-        text = f"verdict: {measure(strain)} microstrain{f' ({how})' if how else ''}, {passes:.2g} passes"
+        text = f"verdict: {measure(strain)} microstrain{f' ({how})' if how else ''}, {passes:.2g} load repetitions"
         return [Place(x, y, text, depth)]
     if "worst_y" in variables and "criterion" in variables:
         years = (
@@ -66,6 +66,6 @@ def places_of(source: Source) -> list[Place]:
             row, column = peak_of(values := plane(data.isel(depth=number), name))
             depth = float(data["depth"][number])
             most = measure(MICRO * values[row, column])
-            text = f"largest extension {words}, {MM * depth:g} mm deep: {most} microstrain"
+            text = f"largest tensile strain {words}, {MM * depth:g} mm deep: {most} microstrain"
             places.append(Place(float(across[column]), float(down[row]), text, depth))
     return places
