@@ -114,27 +114,33 @@ def test_nobody_at_an_address(tmp_path, monkeypatch):
 
 
 @pytest.mark.slow
-def test_an_interruption_while_a_local_cluster_starts_is_one_sentence(tmp_path):
-    """As from a terminal, which interrupts the study and the processes that it starts."""
+@pytest.mark.parametrize(
+    ("sent", "code"),
+    [("os.killpg, (0, signal.SIGINT)", 130), ("os.kill, (os.getpid(), signal.SIGTERM)", 143),
+     ("os.killpg, (0, signal.SIGTERM)", 143)],
+)  # fmt: skip
+def test_an_interruption_while_a_local_cluster_starts_is_one_sentence(tmp_path, sent, code):
+    """As from a terminal, or a scheduler, which interrupts the study alone or also the processes that it starts."""
     small_case(tmp_path)
-    code = """
-import os, signal, threading
+    program = """
+import os, signal, sys, threading
 if __name__ == "__main__":
     import distributed
     start = distributed.LocalCluster.__init__
     def interrupted(self, *args, **more):
-        threading.Timer(0.5, os.killpg, (0, signal.SIGINT)).start()
+        threading.Timer(0.1, SENT).start()
         return start(self, *args, **more)
     distributed.LocalCluster.__init__ = interrupted
-    from treadload.cli import app
-    app(["sweep", "case.toml", "--vary", "poisson=0.2:0.4:5", "--scheduler", "local"])
-"""
-    (tmp_path / "run.py").write_text(code)
+    from treadload.cli import main
+    sys.argv = ["treadload", "sweep", "case.toml", "--vary", "poisson=0.2:0.4:5", "--scheduler", "local"]
+    main()
+""".replace("SENT", sent)
+    (tmp_path / "run.py").write_text(program)
     done = subprocess.run(
         [sys.executable, "run.py"], cwd=tmp_path, capture_output=True, text=True, check=False, start_new_session=True
     )
     # That of shells, 128 and the number of the signal.
-    assert done.returncode == 130
+    assert done.returncode == code
     # Where the machine is slow progress is told before it.
     ours = [line for line in done.stderr.splitlines() if " s  " not in line]
     assert ours == ["error: interrupted; 0 of 5 cases are kept in case.zarr; the same command goes on from there"]

@@ -25,6 +25,7 @@ _AHEAD = 3
 _LOST = "the scheduler went away"
 # How often a silent scheduler is asked whether it still lives, s, and how long one may take to answer at first.
 _LOOK, _REACH = 1.0, 20
+_ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 _NOTHING = logging.CRITICAL + 1
 
 
@@ -90,8 +91,10 @@ def _interrupted_later() -> Iterator[None]:
         yield
         return
     came: list[int] = []
-    before = signal.signal(signal.SIGINT, lambda number, frame: came.append(number))
-    # Threads and processes that start here take over the mask, which the start of this helper process would lift.
+    numbers = [getattr(signal, name) for name in _ENDING if hasattr(signal, name)]
+    before = {number: signal.signal(number, lambda late, frame: came.append(late)) for number in numbers}
+    # Threads and processes that start here take over the mask, which the start of this helper would lift. Dask
+    # ends its processes by SIGTERM, which is not masked.
     resource_tracker.ensure_running()
     mask = getattr(signal, "pthread_sigmask", None)
     masked = None if mask is None else mask(signal.SIG_BLOCK, {signal.SIGINT})
@@ -100,9 +103,10 @@ def _interrupted_later() -> Iterator[None]:
     finally:
         if mask is not None:
             mask(signal.SIG_SETMASK, masked)
-        signal.signal(signal.SIGINT, before)
+        for number, handler in before.items():
+            signal.signal(number, handler)
         if came:
-            raise KeyboardInterrupt
+            signal.raise_signal(came[0])
 
 
 def _done(distributed: ModuleType, futures: list[Any]) -> set[Any]:
