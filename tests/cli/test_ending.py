@@ -207,3 +207,23 @@ def test_a_real_command_whose_reader_leaves_says_nothing():
     done.stdout.close()
     assert done.stderr.read() == b""
     assert done.wait(60) == 0
+
+
+def test_an_interruption_while_its_handlers_are_set_is_one_sentence():
+    """It fell between the first handler and the last in one of a hundred kills."""
+    program = """
+import signal, sys
+from treadload.cli import main
+set_handler = signal.signal
+def interrupted(number, handler):
+    before = set_handler(number, handler)
+    signal.raise_signal(number)
+    return before
+signal.signal = interrupted
+sys.argv = ["treadload", "criteria"]
+main()
+"""
+    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout) == (130, "")
+    assert done.stderr.startswith("error: interrupted; no file was changed")
+    assert done.stderr.count("\n") == 1

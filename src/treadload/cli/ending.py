@@ -47,16 +47,10 @@ def orderly() -> Iterator[None]:
     # A command before it in the same process, as in tests, may have been interrupted.
     _Signal.since, _Signal.is_answered = None, False
     _LOST.clear()
-    for stream in (sys.stdout, sys.stderr):
-        set_encoding(stream, ascii_only=os.environ.get("TREADLOAD_ASCII", "0") not in ("", "0"))
-    if threading.current_thread() is threading.main_thread():
-        for number in _ASKING:
-            # `nohup` and shells hand on what is to be ignored.
-            if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
-                signal.signal(number, _interrupt)
-        sys.unraisablehook = _again
     status: Any = DONE
     try:
+        # An interruption may come as soon as the first signal has its handler.
+        _prepare()
         yield
     except SystemExit as end:
         # A page of help that is not read to its end is no failure: the libraries that print it end with 1.
@@ -74,6 +68,18 @@ def orderly() -> Iterator[None]:
         say(f"error: what was printed could not be written: {lost.strerror or lost}\n", sys.stderr)
         status = status or FAILED
     raise SystemExit(status)
+
+
+def _prepare() -> None:
+    """Encodings of what is printed; handlers of the signals that end a command."""
+    for stream in (sys.stdout, sys.stderr):
+        set_encoding(stream, ascii_only=os.environ.get("TREADLOAD_ASCII", "0") not in ("", "0"))
+    if threading.current_thread() is threading.main_thread():
+        for number in _ASKING:
+            # `nohup` and shells hand on what is to be ignored.
+            if signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
+                signal.signal(number, _interrupt)
+        sys.unraisablehook = _again
 
 
 # Why a stream took no more.
