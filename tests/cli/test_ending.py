@@ -84,6 +84,29 @@ def test_an_interruption_that_python_drops_comes_again(fresh):
     assert time.monotonic() - began < 10
 
 
+@pytest.mark.filterwarnings("ignore::pytest.PytestUnraisableExceptionWarning")
+def test_what_was_half_made_when_an_interruption_came_goes_without_a_word(fresh, capsys):
+    """As an event loop does, interrupted before it has its first attribute."""
+
+    class HalfMade:
+        def __del__(self):
+            raise AttributeError("'_loop'")
+
+    def act(interrupted):
+        half = HalfMade()
+        if interrupted:
+            try:
+                signal.raise_signal(signal.SIGTERM)
+                time.sleep(0)
+            finally:
+                del half
+
+    assert ended(lambda: act(True)) == 143
+    assert "AttributeError" not in capsys.readouterr().err
+    assert ended(lambda: act(False)) == 0
+    assert "AttributeError" in capsys.readouterr().err
+
+
 def test_exit_codes_pass(fresh):
     assert ended(lambda: sys.exit(2)) == 2
     assert ended(lambda: None) == 0

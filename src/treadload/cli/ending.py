@@ -141,12 +141,15 @@ def _interrupt(number: int, frame: object) -> None:
 
 
 def _again(event: Any) -> None:
-    """An interruption that fell where Python drops errors, as while an object goes, comes once more."""
+    """An interruption that fell where Python drops errors, as while an object goes, comes once more.
+
+    After it, objects that were half made fail as they go: nothing that a user could act on.
+    """
     if _Signal.since is not None and issubclass(event.exc_type, KeyboardInterrupt):
         _Signal.since = None
         # Not from here, where it would be dropped, too.
         threading.Timer(0.05, _send, (_Signal.number,)).start()
-    else:
+    elif _Signal.since is None:
         sys.__unraisablehook__(event)
 
 
