@@ -174,7 +174,7 @@ def test_a_format_that_is_no_whole_number(tree, tmp_path, odd):
 def test_passes_beyond_all_that_is_drawn_leave_a_sentence(tree, tmp_path):
     far = tree["damage"].to_dataset().assign(worst_passes=1e300)
     page = write_report({"odd": with_group(tree, "damage", far)}, tmp_path / "r.html").read_text()
-    assert "1e+300 passes lie beyond all that is drawn" in page
+    assert "1e+300 load repetitions lie beyond all that is drawn" in page
     assert "math domain" not in page
 
 

@@ -122,7 +122,8 @@ def test_shipped_tables_are_new_solutions():
         shipped, anew = face_table(section, poisson), section_tables.face_compliance(section, poisson)
         # Single precision.
         np.testing.assert_allclose(shipped.compliance, anew.compliance, atol=1e-7 * np.abs(anew.compliance).max())
-        np.testing.assert_array_equal(shipped.waves, anew.waves)
+        # Powers and logarithms round in the last place as the machine's library does.
+        np.testing.assert_allclose(shipped.waves, anew.waves, rtol=1e-14)
         cells = shipped.on_cells(np.array([[-0.003, 0.0], [0.0, 0.003], [0.003, 0.006]])).compliance
         assert np.linalg.eigvalsh(cells).min() > 0
 
