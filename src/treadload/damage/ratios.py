@@ -80,8 +80,8 @@ class EnergyDemand(HorizontalTension):
 
     @property
     def doubt(self) -> str:
-        """The exponent of the regression, and that a computed stress is no conventional one."""
-        return f"{self.mix.doubt}; the stress is the computed one, while its sources use a conventional one"
+        """That a computed stress is no conventional one."""
+        return "the stress of the energy ratio is the computed one, while its sources use a conventional one"
 
     def of(self, stress: Array, strain: Array) -> Array:
         """DCSE_min / DCSE_f under the largest tension of the plane."""
