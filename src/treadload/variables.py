@@ -332,6 +332,8 @@ _LIFE = {
     "weather_stress": ("Pa", "largest tension of the mean day's thermal stress where the criterion reads"),
     "life_years_without_wander": ("1", "years until the damage is 1 with all wheels in one track"),
     "life_years_with_wander": ("1", "years until the damage is 1 with wheels that wander, whatever the law includes"),
+    "life_years_fresh_line": ("1", "years until the damage of a surface criterion is 1 by the line of a young mix"),
+    "life_years_aged_line": ("1", "years until the damage of a surface criterion is 1 by the line of old cores"),
     "life_passes": ("1", "passes until the damage at the worst place is 1"),
     "largest_reading": ("1", "largest reading of the criterion's law, in the law's unit"),
     "class_reading": ("1", "largest reading of the criterion's law by class and season, in the law's unit"),
@@ -610,6 +612,8 @@ _DISPLAYS_DAMAGE = {
 
 _DISPLAYS_LIFE = {
     "life_years": Display("service life", "", years_in_words),
+    "life_years_fresh_line": Display("by the fresh line", "", years_in_words),
+    "life_years_aged_line": Display("by the aged line", "", years_in_words),
     "life_passes": Display("load repetitions", "", repetitions_in_words),
     "largest_reading": Display("largest evaluated value"),
     "read_depth": Display("depth", "mm", "g"),

@@ -8,6 +8,7 @@ from treadload.damage.growth import CrackGrowth, FromStrength, Growth, ParisLaw
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
 from treadload.damage.indices import asphalt_rut, distortion_work, polishing_work, tearing_work
 from treadload.damage.interface import BondVerdict, assess_bonds, delaminate, interface_fields
+from treadload.damage.laws.aged import AgedLine, AgedSurface, TwoSlopeLine
 from treadload.damage.laws.american import (
     AsphaltInstitute,
     AsphaltInstituteSubgrade,
@@ -20,6 +21,7 @@ from treadload.damage.laws.bond_by_test import TimedStrength, passage_rate
 from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.laws.equivalence import AGGRESSIVENESS, aggressiveness, equivalent_axles
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine, PowerLaw, PowerLine
+from treadload.damage.laws.fit import FittedLine, fit_fatigue_line
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.damage.laws.indian import (
     IrcCementTreated,
@@ -61,6 +63,8 @@ __all__ = [
     "AGGRESSIVENESS",
     "LEUTNER_MINIMUM",
     "RISK",
+    "AgedLine",
+    "AgedSurface",
     "AsphaltInstitute",
     "AsphaltInstituteSubgrade",
     "AxleClass",
@@ -78,6 +82,7 @@ __all__ = [
     "Extension",
     "FatigueLaw",
     "FatigueLine",
+    "FittedLine",
     "FrenchBituminous",
     "FrenchHydraulic",
     "FrenchSubgrade",
@@ -111,6 +116,7 @@ __all__ = [
     "SurfaceExtension",
     "TimedStrength",
     "Traffic",
+    "TwoSlopeLine",
     "UniformComparison",
     "Verdict",
     "VerticalCompression",
@@ -129,6 +135,7 @@ __all__ = [
     "distortion_work",
     "envelope",
     "equivalent_axles",
+    "fit_fatigue_line",
     "granular_modulus",
     "interface_fields",
     "known_quantities",

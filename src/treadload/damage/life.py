@@ -44,7 +44,8 @@ class Life(BaseResult, group="life"):
     weather day_temperature (month, hour, profile_depth); where daily thermal stress counts weather_share,
     weather_reading, weather_stress (criterion, month) and day_tension (month, profile_depth), damage_share being the
     traffic's in the whole; where courses are divided sublayer_modulus and
-    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; with rutting
+    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; of criteria of the surface
+    life_years_fresh_line and life_years_aged_line, NaN of others, with surface_lines in the attributes; with rutting
     rut_depth (rut_layer, year), and rut_names, rut_limit and rut_years in its attributes. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season, of the first class of axles. by_class: (criterion, axle_class, season), where classes meet other moduli.
@@ -74,6 +75,7 @@ class Life(BaseResult, group="life"):
             "damage_per_year": "criterion y",
             "design_damage design_utilisation first_crack_angle first_crack_dip read_depth": "criterion",
             "orientation_damage": "criterion orientation",
+            "life_years_fresh_line life_years_aged_line": "criterion",
             "elasticity": "input",
         },
         finite="damage_per_year damage_share worst_y largest_reading design_damage design_utilisation "

@@ -89,6 +89,7 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
         for key in ("design_utilisation", "design_damage")
         if key in at
     ]
+    rows += _line_rows(data, at, name)
     rows.append(row("damage_by", by_whom(at), group=name))
     rows.append(row("law_conditions", conditions_of(criterion.law_at(15.0)), group=name))
     if "orientation_damage" in at:
@@ -101,6 +102,13 @@ def life_rows(data: xr.Dataset, criteria: Sequence[Criterion], traffic: Traffic)
     rows = [criterion_row for criterion in criteria for criterion_row in criterion_rows(data, criterion, traffic)]
     rows += [row("group_factor", text) for text in json.loads(data.attrs.get("groups", "[]"))]
     return rows + rut_rows(data)
+
+
+def _line_rows(data: xr.Dataset, at: xr.Dataset, name: str) -> list[Row]:
+    """Years of a surface criterion by the line of a young mix and by that of old cores; none of others."""
+    lines = json.loads(data.attrs.get("surface_lines", "{}")).get(name, ())
+    keys = ("life_years_fresh_line", "life_years_aged_line")
+    return [row(key, at[key], group=name, note=text) for key, text in zip(keys, lines, strict=False) if key in at]
 
 
 def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:

@@ -25,6 +25,7 @@ from treadload.life.layered_climate import climate_fields
 from treadload.life.passages import Passages, solve_passages
 from treadload.life.rutting import rut_fields
 from treadload.life.seasons import frequencies
+from treadload.life.surface_lines import surface_line_fields
 from treadload.life.surface_works import surface_works
 from treadload.life.thermal import daily_cycles
 from treadload.life.wheels import Wheels
@@ -61,8 +62,11 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
         "axles": (("axle_class",), axles),
     }
     fields |= surface_works(design)
+    kept = passages.readings
+    by_lines, lines = surface_line_fields(design, kept.to_numpy(), kept["y"].to_numpy(), weather)
+    fields |= {name: (("criterion",), by_line) for name, by_line in by_lines.items()}
     variables_added = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
-    dataset = life.dataset.assign(variables_added).assign_attrs(about)
+    dataset = life.dataset.assign(variables_added).assign_attrs(about | lines)
     life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
     life, rut = with_rut(life, design, passages.wheels)
     stats = {
