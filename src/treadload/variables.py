@@ -356,6 +356,10 @@ _LIFE = {
     "first_crack_angle": ("rad", "angle of the first crack's trace from travel towards the right"),
     "first_crack_dip": ("rad", "angle of the first crack's plane from the horizontal, π/2 is vertical"),
     "orientation_damage": ("1", "share of the damage at the worst place due to cracks of an orientation"),
+    "crack_repetitions": ("1", "load repetitions of the load that does most until a crack of a direction starts"),
+    "crack_place": ("m", "place across travel where a crack of a direction starts first under that load"),
+    "crack_strain": ("1", "largest tensile strain across a crack of a direction under that load"),
+    "cause_share": ("1", "share of what opens the first crack in the damage of that load at the worst place"),
     "elasticity": ("1", "relative change of the life per relative change of an input; of temperature, per °C"),
 }
 
@@ -623,6 +627,7 @@ _DISPLAYS_LIFE = {
     "damage_by": Display("most damage by"),
     "law_conditions": Display("law calibrated"),
     "first_crack": Display("first crack"),
+    "first_crack_cause": Display("first crack by"),
     "end_of_life": Display("damage 1 means"),
     "quantity": Display("evaluated"),
     "group_factor": Display("axle groups"),

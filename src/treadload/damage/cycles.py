@@ -95,6 +95,19 @@ def as_turns(tops: Array, bottoms: Array, turns: int, power: float) -> Array:
     return result
 
 
+def harm_of_each(law: FatigueLaw, tops: Array, bottoms: Array) -> Array:
+    """Damage (n, m) of each cycle by a law, from peaks and valleys (n, m), see `rainflow` and `harm_of`."""
+    by_cycle: Callable[[Array, Array], Array] | None = getattr(law, "allowable_cycles", None)
+    if by_cycle is not None:
+        each: Array = 1 / np.asarray(by_cycle(0.5 * (tops - bottoms), 0.5 * (tops + bottoms)))
+        return each
+    if getattr(law, "by_peak", False):
+        # The largest peak is the last that is paired, with rest.
+        tops, bottoms = np.where(np.arange(tops.shape[1]) == tops.shape[1] - 1, tops, 0.0), np.zeros_like(bottoms)
+    harm: Array = 1 / np.asarray(law.allowable_passes(tops)) - 1 / np.asarray(law.allowable_passes(bottoms))
+    return np.maximum(harm, 0.0)
+
+
 def harm_of(law: FatigueLaw, turns: Array) -> Array:
     """Damage (ny,) of one passage by a law, from peak, valley, peak, ... (turn, ny), see `as_turns`.
 

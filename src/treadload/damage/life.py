@@ -40,7 +40,9 @@ class Life(BaseResult, group="life"):
     each; where the traffic wanders, life_years_without_wander and
     life_years_with_wander, whichever the law takes; with a design life design_damage; with cracks
     first_crack_angle, first_crack_dip
-    (criterion), of the class and season that do most, and orientation_damage (criterion, orientation); below a
+    (criterion), of the class and season that do most, and orientation_damage (criterion, orientation); of criteria of
+    tensile strain at the surface crack_repetitions, crack_place, crack_strain (criterion, direction) and cause_share
+    (criterion, cause), see `life.first_crack`, NaN of others; below a
     weather day_temperature (month, hour, profile_depth); where daily thermal stress counts weather_share,
     weather_reading, weather_stress (criterion, month) and day_tension (month, profile_depth), damage_share being the
     traffic's in the whole; where courses are divided sublayer_modulus and
@@ -76,6 +78,8 @@ class Life(BaseResult, group="life"):
             "design_damage design_utilisation first_crack_angle first_crack_dip read_depth": "criterion",
             "orientation_damage": "criterion orientation",
             "life_years_fresh_line life_years_aged_line": "criterion",
+            "crack_repetitions crack_place crack_strain": "criterion direction",
+            "cause_share": "criterion cause",
             "elasticity": "input",
         },
         finite="damage_per_year damage_share worst_y largest_reading design_damage design_utilisation "
@@ -88,6 +92,8 @@ class Life(BaseResult, group="life"):
             "orientation": "orientation_damage",
             "orientation_damage": "first_crack_angle",
             "elasticity": "input",
+            "cause_share": "crack_repetitions",
+            "crack_repetitions": "cause_share",
         },
         maybe_numbers=f"design_years {' '.join(OF_SENSITIVITY)}",
         positive="design_years",

@@ -28,6 +28,10 @@ _MOSTLY = 0.2
 RUT = "rut"
 """What a life calls its rut among what ends it."""
 
+DIRECTIONS = ("transverse", "longitudinal")
+"""Directions of cracks from the surface that are evaluated side by side."""
+CAUSES = ("hogging", "tread", "braking or driving")
+"""What opens the first crack: the basin away from the footprints, what is near them, the longitudinal force."""
 
 PER_CRITERION = ("laws", "sources", "doubts", "reads")
 """Attributes of a life with an entry for each criterion, JSON."""
@@ -101,6 +105,8 @@ def life_rows(data: xr.Dataset, criteria: Sequence[Criterion], traffic: Traffic)
     """Rows on every criterion, on groups of axles and on the rut. data: of a `Life`."""
     rows = [criterion_row for criterion in criteria for criterion_row in criterion_rows(data, criterion, traffic)]
     rows += [row("group_factor", text) for text in json.loads(data.attrs.get("groups", "[]"))]
+    causes = [cause_in_words(data, criterion.name) for criterion in criteria]
+    rows += [row("first_crack_cause", text) for text in causes if text]
     return rows + rut_rows(data)
 
 
@@ -109,6 +115,34 @@ def _line_rows(data: xr.Dataset, at: xr.Dataset, name: str) -> list[Row]:
     lines = json.loads(data.attrs.get("surface_lines", "{}")).get(name, ())
     keys = ("life_years_fresh_line", "life_years_aged_line")
     return [row(key, at[key], group=name, note=text) for key, text in zip(keys, lines, strict=False) if key in at]
+
+
+def cause_in_words(data: xr.Dataset, name: str) -> str:
+    """The first crack from the surface by a criterion: which way, by which load and season, by what; "" for none."""
+    if "cause_share" not in data or not np.isfinite(data["cause_share"].sel(criterion=name)).all():
+        return ""
+    at = data.sel(criterion=name)
+    share, most = at["damage_share"].to_numpy(), {}
+    row_number, season = np.unravel_index(int(share.argmax()), share.shape)
+    load = f"{at['axle_class'].to_numpy()[row_number]} in {at['season'].to_numpy()[season]}"
+    for number in np.argsort(at["crack_repetitions"].to_numpy(), kind="stable"):
+        direction, count = str(at["direction"].to_numpy()[number]), float(at["crack_repetitions"][number])
+        most[direction] = (
+            "never"
+            if math.isinf(count)
+            else f"after {repetitions_in_words(count)} of its load repetitions at y = "
+            f"{1e3 * float(at['crack_place'][number]):z.0f} mm ({1e6 * float(at['crack_strain'][number]):.3g} "
+            "microstrain)"
+        )
+    (first, when), (second, later) = most.items()
+    causes = ", ".join(
+        f"{100 * float(value):.0f} % {cause}"
+        for cause, value in zip(at["cause"].to_numpy(), at["cause_share"].to_numpy(), strict=True)
+    )
+    return (
+        f"{name}: {first} first, under {load} ({100 * share.max():.0f} % of the damage), {when}; {second} {later}; "
+        f"at the worst place, y = {1e3 * float(at['worst_y']):z.0f} mm, its damage is {causes}"
+    )
 
 
 def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:

@@ -14,9 +14,10 @@ from scipy.interpolate import CubicSpline, make_interp_spline
 
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import as_turns, rainflow, turning_points
-from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.arrays import Array
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
+from treadload.life.followed import Followed, power_of
 from treadload.life.lines import Lines, Plane, along, rows_of
 from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
@@ -36,8 +37,6 @@ _DIMS = ("depth", "y", "x")
 # Names of variables, their dimensions and their values; a criterion, its fields and the result of its cracks.
 Fields = Mapping[str, tuple[tuple[str, ...], Array]]
 Worst = tuple[Criterion, Fields, Array]
-# Of a law that tells none, and any temperature: exponents hardly depend on it.
-_USUAL, _ANY_TEMPERATURE = -0.2, 15.0
 # Points of all fields that are solved together: some 330 MB with what is made of them.
 _TOGETHER = 1_500_000
 
@@ -176,6 +175,21 @@ def _pass(
     return again
 
 
+def near_and_far(task: Passing, number: int) -> tuple[Lines, Basin, tuple[xr.Dataset, xr.Dataset, xr.Dataset]] | None:
+    """Lines of a passage with what one of its criteria reads there, see `_read_both`; None where it has no basin."""
+    plane = task.plane(number)
+    if not plane.wide:
+        return None
+    wheels, y = task.wheels, task.y
+    rows = rows_of(wheels, y, plane)
+    basin = Basin.of(wheels, y, y[rows], task.reach)
+    lines, several = Lines.of(plane, wheels, rows, y, basin), [(task, [number])]
+    (beyond,) = _solved(several, plane, basin.x, basin.y, basin=True)
+    (near,) = _solved(several, plane, along(wheels, plane), y[rows])
+    away, outside = basin.lines(beyond)
+    return lines, basin, (near, outside, away)
+
+
 def _solved(
     tasks: Sequence[tuple[Passing, list[int]]], plane: Plane, x: Array, y: Array, *, basin: bool = False
 ) -> list[xr.Dataset]:
@@ -206,11 +220,6 @@ def _loads(wheels: Wheels, plane: Plane, *, basin: bool) -> list[SurfaceLoad]:
     return wheels.deep if plane.stride else wheels.joined
 
 
-def _power(criterion: Criterion) -> float:
-    """By which the damage of a criterion grows with its reading."""
-    return 1 / abs(float(getattr(criterion.law_at(_ANY_TEMPERATURE), "exponent", _USUAL)))
-
-
 def _read(
     result: Array, criterion: Criterion, data: xr.Dataset, task: Passing, plane: Plane, lines: Lines
 ) -> tuple[Fields, bool]:
@@ -223,7 +232,7 @@ def _read(
     by_depth = readings(uncut, margin)
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
     x, centres = data["x"].to_numpy(), task.wheels.x.mean(axis=1)
-    at, power = {"centres": centres, "turns": 2 * len(centres) - 1}, _power(criterion)
+    at, power = {"centres": centres, "turns": 2 * len(centres) - 1}, power_of(criterion)
     rows = lines.y[lines.rows]
     if lines.strips is not None:
         peaks = over_strips(lines.strips, x, uncut, margin, power=power, **at)
@@ -255,24 +264,13 @@ def _read_both(
     fields: near (depth, rows, x); of the basin on the same rows, and on its lines, see `Basin.lines`. Lines are
     followed from rest to rest; peaks under axles are those between the points, or those of strips.
     """
-    turns, power = task.turns, _power(criterion)
+    turns, power = task.turns, power_of(criterion)
     near, outside, far = fields
-    uncut, margin = criterion.read_uncut(near)
-    by_depth = readings(uncut, margin)
-    away, beside = (readings(*criterion.read_uncut(part)) for part in (far, outside))
-    x, centres = near["x"].to_numpy(), task.wheels.x.mean(axis=1)
-    whole = np.concatenate([by_depth, beside], axis=2)
-    read, far_read = whole.max(axis=0), away.max(axis=0)
-    x_all = np.concatenate([x, basin.columns[basin.outside]])
-    order = np.argsort(x_all, kind="stable")
-    axle = _axle_of(x, task.wheels)
-    on_core = lines.onto_core @ read
-    if criterion.mean_over is not None:
-        under = axle >= 0
-        part = (x[under], uncut[..., under], None if margin is None else margin[..., under])
-        for number, peak in enumerate(_axle_peaks(lines, part, centres, power)):
-            _set_peak(on_core, np.flatnonzero(axle == number), peak)
-    on_lines = np.concatenate([_turns_of(on_core[:, order], turns, power), _turns_of(far_read, turns, power)], axis=1)
+    followed = Followed.of(criterion.read_uncut, fields, task.wheels, lines, basin, criterion.mean_over, power)
+    x, x_all, read, far_read = near["x"].to_numpy(), followed.x, followed.read, followed.away
+    whole, away = followed.by_depth, followed.away_by_depth
+    on_core = followed.core[:, np.argsort(x_all, kind="stable")]
+    on_lines = np.concatenate([_turns_of(on_core, turns, power), _turns_of(far_read, turns, power)], axis=1)
     values = make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
     result[:turns] = np.maximum(values, 0.0)
     most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
@@ -305,40 +303,6 @@ def _read_both(
 def _turns_of(read: Array, turns: int, power: float) -> Array:
     """Turns (turns, n) of lines of readings (n, nx)."""
     return as_turns(*rainflow(*turning_points(read)), turns, power)
-
-
-def _axle_peaks(lines: Lines, part: tuple[Array, Array, Array | None], centres: Array, power: float) -> Array:
-    """The peak under each axle (axle, ny) on the core's y, between points too; that of strips where they are given.
-
-    part: x of the cells under the axles, uncut and margin there.
-    """
-    x, uncut, margin = part
-    at: dict[str, Any] = {"centres": centres, "turns": 2 * len(centres) - 1}
-    if lines.strips is not None:
-        return over_strips(lines.strips, x, uncut, margin, power=power, **at)[::2]
-    peaks: Array = peaks_and_valleys(x, uncut, margin, smooth=True, **at)[::2] @ lines.onto_core.T
-    return peaks
-
-
-def _set_peak(read: Array, columns: IntArray, peak: Array) -> None:
-    """Into readings (n, nx), which have a peak (n,) among some columns: larger ones are cut, the largest is raised.
-
-    A reading that stands next to that peak outside the columns stays.
-    """
-    inside = read[:, columns]
-    highest = inside.argmax(axis=1)
-    inside = np.minimum(inside, peak[:, None])
-    inside[np.arange(len(read)), highest] = peak
-    read[:, columns] = inside
-
-
-def _axle_of(x: Array, wheels: Wheels) -> Array:
-    """Which axle's cells each x belongs to, by number; -1 beside them."""
-    half = 0.5 * (wheels.x[0, 1] - wheels.x[0, 0])
-    which = np.full(len(x), -1)
-    for number, cells in enumerate(wheels.x):
-        which[(x > cells[0] - half) & (x < cells[-1] + half)] = number
-    return which
 
 
 def _at(data: xr.Dataset, deep: Any, instant: Any, rows: Any = None) -> dict[str, tuple[tuple[str, ...], Array]]:

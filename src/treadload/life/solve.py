@@ -17,9 +17,11 @@ from treadload.damage.interface import interface_in_words
 from treadload.damage.life import Life
 from treadload.damage.miner import miner
 from treadload.damage.thermal import DailyCycles
+from treadload.damage.words import CAUSES, DIRECTIONS
 from treadload.life.caveats import beyond_tables, surface_doubts, traffic_doubts
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
+from treadload.life.first_crack import first_cracks
 from treadload.life.groups import group_factors, in_words
 from treadload.life.layered_climate import climate_fields
 from treadload.life.passages import Passages, solve_passages
@@ -62,11 +64,13 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
         "axles": (("axle_class",), axles),
     }
     fields |= surface_works(design)
+    fields |= first_cracks(design, life, passages, workers)
     kept = passages.readings
     by_lines, lines = surface_line_fields(design, kept.to_numpy(), kept["y"].to_numpy(), weather)
     fields |= {name: (("criterion",), by_line) for name, by_line in by_lines.items()}
     variables_added = {name: (*field, variables.attributes(name)) for name, field in fields.items()}
-    dataset = life.dataset.assign(variables_added).assign_attrs(about | lines)
+    ways = {"direction": list(DIRECTIONS), "cause": list(CAUSES)}
+    dataset = life.dataset.assign(variables_added).assign_coords(ways).assign_attrs(about | lines)
     life = replace(life, dataset=dataset.merge(climate_fields(road, climate), combine_attrs="override"))
     life, rut = with_rut(life, design, passages.wheels)
     stats = {
