@@ -19,7 +19,7 @@ from treadload.damage.miner import wander_of
 from treadload.damage.quantity import part, tension
 from treadload.damage.traffic import AxleClass, Wander
 from treadload.damage.words import CAUSES, DIRECTIONS
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.life.contacts import Counter
 from treadload.life.design import Design
 from treadload.life.followed import Evaluated, Followed, power_of
@@ -116,11 +116,11 @@ class _Solved:
         core = _cycles(followed.core[:, order], followed.far[order], law)
         away = _cycles(followed.away, np.ones(followed.away.shape[1], dtype=bool), law)
         whole, far = (np.concatenate(pair)[self.lines.ordered] for pair in zip(core, away, strict=True))
-        onto = partial(np.interp, self.y, self.lines.evaluated)
-        return onto(whole), onto(far)
+        lines = self.lines.evaluated
+        return np.asarray(np.interp(self.y, lines, whole)), np.asarray(np.interp(self.y, lines, far))
 
 
-def _cycles(read: Array, far: Array, law: FatigueLaw) -> tuple[Array, Array]:
+def _cycles(read: Array, far: BoolArray, law: FatigueLaw) -> tuple[Array, Array]:
     """Damage (n,) of lines of values (n, nx), and of it that of cycles with their peak in far columns (nx,)."""
     tops, bottoms = rainflow(*turning_points(read))
     harm = harm_of_each(law, tops, bottoms)
@@ -148,8 +148,7 @@ def _solved(
     climate, axle_class = design.climate.seasons[season], design.traffic.classes[row]
     criterion = design.criteria[number]
     key = (row, season, freely, criterion.needs, criterion.depths(design.road), criterion.mean_over)
-    if key in known and known[key] is not None:
-        same = known[key]
+    if (same := known.get(key)) is not None:
         warm = warmed(design.road, (criterion,), climate, axle_class)
         return replace(same, task=replace(same.task, warm=warm))
     wheels = passages.wheels[row]
