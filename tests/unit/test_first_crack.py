@@ -47,7 +47,7 @@ slope = -0.2
 name = "soil"
 law = "french-subgrade"
 """
-TURNING = '{ kind = "turning", radius = 20, speed = 8 }'
+TURNING = '{ kind = "turning", radius = 15, speed = 9 }'
 BRAKING = '{ kind = "braking", deceleration = 4 }'
 STIFF, SOFT = ("200 mm", "5400 MPa"), ("200 mm", "600 MPa")
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -20,14 +19,17 @@ from treadload.damage.quantity import part, tension
 from treadload.damage.traffic import AxleClass, Wander
 from treadload.damage.words import CAUSES, DIRECTIONS
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
 from treadload.life.design import Design
 from treadload.life.followed import Evaluated, Followed, power_of
+from treadload.life.lines import Lines
 from treadload.life.passage import Passing, near_and_far
 from treadload.life.passages import Passages
 from treadload.life.seasons import warmed
 from treadload.life.threads import pool_of
 from treadload.life.wheels import Wheels, states_of, wheels_of
+from treadload.pavement import Pavement
 
 # The strain across a crack of each direction.
 _ACROSS = {"transverse": "strain_xx", "longitudinal": "strain_yy"}
@@ -49,7 +51,7 @@ def first_cracks(design: Design, life: Life, passages: Passages, workers: int | 
     count = len(life.criteria)
     fields = {name: np.full((count, len(DIRECTIONS)), np.nan) for name in _REPETITIONS}
     shares = np.full((count, len(CAUSES)), np.nan)
-    known: dict[Any, _Solved | None] = {}
+    cache: dict[tuple[object, ...], _Solved | None] = {}
     for k, criterion in enumerate(life.criteria):
         damage = life.dataset["damage_share"].to_numpy()[k]
         at_surface = criterion.place == "top" and criterion.number(design.road) == 0 and criterion.quantity.extends
@@ -58,7 +60,7 @@ def first_cracks(design: Design, life: Life, passages: Passages, workers: int | 
         row, season = (int(number) for number in np.unravel_index(int(damage.argmax()), damage.shape))
         law = life.class_laws[k][row][season]
         wander, worst = wander_of(life.class_laws[k][0][0], life.traffic), float(life.dataset["worst_y"][k])
-        solve = partial(_solved, design, k, row, season, passages, known)
+        solve = partial(_solved, design, k, row, season, passages, cache)
         braked = solve()
         if braked is None:
             continue
@@ -84,8 +86,8 @@ class _Solved:
     """A passage of a class in a season with what a criterion reads near and far."""
 
     task: Passing
-    lines: Any
-    basin: Any
+    lines: Lines
+    basin: Basin
     fields: tuple[xr.Dataset, xr.Dataset, xr.Dataset]
 
     @property
@@ -140,7 +142,7 @@ def _solved(
     row: int,
     season: int,
     passages: Passages,
-    known: dict[Any, _Solved | None],
+    cache: dict[tuple[object, ...], _Solved | None],
     *,
     freely: bool = False,
 ) -> _Solved | None:
@@ -148,26 +150,24 @@ def _solved(
     climate, axle_class = design.climate.seasons[season], design.traffic.classes[row]
     criterion = design.criteria[number]
     key = (row, season, freely, criterion.needs, criterion.depths(design.road), criterion.mean_over)
-    if (same := known.get(key)) is not None:
+    if (same := cache.get(key)) is not None:
         warm = warmed(design.road, (criterion,), climate, axle_class)
         return replace(same, task=replace(same.task, warm=warm))
-    wheels = passages.wheels[row]
     y = passages.readings["y"].to_numpy()
-    if freely:
-        wheels = _free(design, axle_class, y)
     warm = warmed(design.road, (criterion,), climate, axle_class)
+    wheels = _free(design, axle_class, warm.road, y) if freely else passages.wheels[row]
     task = Passing(wheels, warm, y, passages.readings.sizes["turn"], passages.reach)
     read = near_and_far(task, 0)
-    known[key] = None if read is None else _Solved(task, *read)
-    return known[key]
+    cache[key] = None if read is None else _Solved(task, *read)
+    return cache[key]
 
 
-def _free(design: Design, axle_class: AxleClass, y: Array) -> Wheels:
+def _free(design: Design, axle_class: AxleClass, road: Pavement, y: Array) -> Wheels:
     """The wheels of a class on y, m, without a longitudinal force."""
     rolling = replace(axle_class, maneuver=rolling_freely(axle_class.maneuver))
     states = states_of(rolling, design.tire)
     with pool_of(1) as pool:
-        design.contacts.solve(states, design.road, pool, Counter(len(states), None))
+        design.contacts.solve(states, road, pool, Counter(len(states), None))
     return wheels_of([design.contacts.solved[state] for state in states], rolling, y)
 
 
