@@ -168,7 +168,7 @@ def _at_one_frequency(design: Design, life: Life, workers: int | None, progress:
                 f"{min(ratios):.3g} to {max(ratios):.3g} times those of the road as given ({row.frequency})"
             )
     plain = replace(traffic, classes=tuple(replace(row, frequency=None) for row in traffic.classes))
-    plain_life = solve_life(replace(design, traffic=plain, rutting=None), workers=workers, progress=progress)
+    plain_life = solve_sum(replace(design, traffic=plain, rutting=None), workers=workers, progress=progress).life
     for criterion in design.criteria:
         years, without = life.years(criterion.name), plain_life.years(criterion.name)
         if math.isfinite(years) and math.isfinite(without):
