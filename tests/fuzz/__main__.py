@@ -62,6 +62,7 @@ KINDS = (
     "contacts",
     "solved",
     "solved_lives",
+    "random_lives",
 )
 _BATCH = 200
 

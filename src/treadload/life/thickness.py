@@ -311,7 +311,7 @@ class _Search:
     def _shifted(self, thickness: float, life: Life) -> Array:
         assert self.risk is not None
         design = self.design.with_thickness(self.number, thickness)
-        shifted = life_reliability(design, life, risks=[self.risk], **self.running)
+        shifted = life_reliability(design, life, risks=[self.risk], held_back=0, **self.running)
         self.counts["responses"] += int(shifted.stats["responses"])
         shift = np.zeros(len(life.criteria))
         names = [str(name) for name in shifted.dataset["criterion"].to_numpy()]

@@ -28,6 +28,8 @@ _TOLERANCE = 3e-5
 MARGIN = 0.3
 # Readings stand at least this close to each other across travel, m: a fifth of the length they are averaged over.
 _BETWEEN = 2e-3
+# Round-off of a place, in cells.
+_ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -149,11 +151,11 @@ def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
     loads, offsets = [], []
     for number, (at_x, at_y) in enumerate(row.wheels):
         print_ = last.mirrored() if len(contacts) > 1 and number in row.mirrored else first
-        row_y = round((at_y + print_.grid.y0 - y[0]) / dy)
-        near_x, near_y = dx * round(at_x / dx), float(y[0]) + dy * row_y - print_.grid.y0
+        row_y = _nearest_cell((at_y + print_.grid.y0 - y[0]) / dy)
+        near_x, near_y = dx * _nearest_cell(at_x / dx), float(y[0]) + dy * row_y - print_.grid.y0
         loads.append(print_.moved(x=near_x, y=near_y))
         offsets.append((at_x - near_x, at_y - near_y))
-    centres = sorted({round(at_x / dx) for at_x, _ in row.wheels})
+    centres = sorted({_nearest_cell(at_x / dx) for at_x, _ in row.wheels})
     return Wheels(
         tuple(loads),
         np.array([grid.x + dx * centre for centre in centres]),
@@ -162,6 +164,11 @@ def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
         float(np.abs(offsets).max()),
         tuple(offsets),
     )
+
+
+def _nearest_cell(cells: float) -> int:
+    """The nearest whole number of cells; of two the larger, so that wheels half a cell off keep their distances."""
+    return math.floor(cells + 0.5 + _ROUND_OFF)
 
 
 def _shared_out(load: GridLoad, off_x: float, off_y: float) -> GridLoad:

@@ -9,7 +9,7 @@ from pydantic import model_validator
 from treadload.case.step import Step
 from treadload.damage import Life
 from treadload.damage.scatter import Scatter, check_risks
-from treadload.life.reliability import MonteCarlo, Reliability, life_reliability, roads_asked
+from treadload.life.reliability import FEWEST_HELD, MonteCarlo, Reliability, life_reliability, roads_asked
 from treadload.steps.life import fails
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Scene
@@ -24,7 +24,7 @@ class ReliabilityStep(Step, name="reliability"):
     Sh, of all asphalt, or a table by the names of layers; left out, by the rule of the French method. moduli:
     coefficient of variation of every layer's modulus, or a table by the names of layers. traffic: coefficient of
     variation of the passes. temperature: of the year. coverage: share of a criterion's damage that is solved again
-    with the inputs changed. draws: of the Monte Carlo. seed: of the draws.
+    with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of the Monte Carlo. seed: of the draws.
     """
 
     after: ClassVar = ("life",)
@@ -36,6 +36,7 @@ class ReliabilityStep(Step, name="reliability"):
     traffic: Share = 0.0
     temperature: Kelvin = 0.0
     coverage: Share = 0.5
+    held_back: int = 4
     draws: int = 100_000
     seed: int = 1
 
@@ -44,6 +45,8 @@ class ReliabilityStep(Step, name="reliability"):
         check_risks(self.risks)
         if not 0 < self.coverage <= 1:
             raise ValueError(f"coverage must lie in (0, 1], got {self.coverage:g}; 0.5 is the default")
+        if self.held_back != 0 and self.held_back < FEWEST_HELD:
+            raise ValueError(f"held_back must be 0, for no error, or at least {FEWEST_HELD}, got {self.held_back}")
         if not 1000 <= self.draws <= 10_000_000:
             raise ValueError(f"draws must lie in [1000, 10 000 000], got {self.draws}; 100 000 is the default")
         self.build()
@@ -60,7 +63,7 @@ class ReliabilityStep(Step, name="reliability"):
         if not fails(life):
             return None
         return life_reliability(
-            scene.design, life, risks=self.risks, coverage=self.coverage,
+            scene.design, life, risks=self.risks, coverage=self.coverage, held_back=self.held_back,
             sampling=MonteCarlo(self.draws, self.seed),
             workers=scene.options.workers, progress=scene.progress.count,
         )  # fmt: skip

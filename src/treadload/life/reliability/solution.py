@@ -28,7 +28,8 @@ class Reliability(BaseResult, group="reliability"):
     """How long a road lasts, with which probability, and by what that scatters.
 
     dataset: years_at_risk, years_at_risk_first_order, risk_factor (criterion, risk); failure_probability,
-    failure_probability_first_order (criterion, year); importance (criterion, input), α² of the first order at the
+    failure_probability_first_order (criterion, year); years_error (criterion, risk) and road_years_error (risk), parts
+    of the years by which they may err, NaN where that was not looked for; importance (criterion, input), α² of the first order at the
     smallest risk; road_years_at_risk (risk) and road_failure_probability (year) of the first criterion to fail;
     thickness_slope, surface_error, coverage (criterion). scatter: what was asked. stats: what was solved and drawn.
     warnings: sentences for the user.
@@ -38,10 +39,10 @@ class Reliability(BaseResult, group="reliability"):
     subject: ClassVar[str] = "How long a road lasts, with a probability"
     holds: ClassVar[Holds] = Holds(
         {
-            "years_at_risk years_at_risk_first_order risk_factor": "criterion risk",
+            "years_at_risk years_at_risk_first_order years_error risk_factor": "criterion risk",
             "failure_probability failure_probability_first_order": "criterion year",
             "importance": "criterion input",
-            "road_years_at_risk": "risk",
+            "road_years_at_risk road_years_error": "risk",
             "road_failure_probability": "year",
             "thickness_slope surface_error coverage fatigue_scatter": "criterion",
             "law_risk law_risk_factor law_years": "criterion",
@@ -51,7 +52,7 @@ class Reliability(BaseResult, group="reliability"):
         labels={"criterion": "criterion", "input": "input"},
         lists="deviations ends",
         maybe_numbers="design_years",
-        stats=("contacts responses points draws seed seconds",),
+        stats=("contacts responses points held_back draws seed seconds",),
         positive="risk year",
     )
 
@@ -87,11 +88,8 @@ class Reliability(BaseResult, group="reliability"):
         rows: list[Row] = []
         for k, name in enumerate(map(str, data["criterion"].to_numpy())):
             at = data.isel(criterion=k)
-            rows += [
-                row(key, years, label=f"{display_of(key).label} {risk}", group=name)
-                for key in ("years_at_risk", "years_at_risk_first_order")
-                for risk, years in zip(risks, at[key], strict=True)
-            ]
+            rows += _at_risks(at, risks, "years_at_risk", "years_error", name)
+            rows += _at_risks(at, risks, "years_at_risk_first_order", "", name)
             rows.append(row("end_of_life", str(ends[k]), group=name))
             rows.append(row("importance", _shares(at, deviations), group=name))
             if math.isfinite(float(at["thickness_slope"])):
@@ -102,14 +100,12 @@ class Reliability(BaseResult, group="reliability"):
                 rows.append(row("law_risk_factor", at["law_risk_factor"], note=risk, group=name))
                 rows.append(row("law_years", at["law_years"], note=risk, group=name))
         if data.sizes["criterion"] > 1:
-            rows += [
-                row("road_years_at_risk", years, label=f"{display_of('road_years_at_risk').label} {risk}")
-                for risk, years in zip(risks, data["road_years_at_risk"], strict=True)
-            ]
+            rows += _at_risks(data, risks, "road_years_at_risk", "road_years_error", "")
         if self.stats:
             solved = (
-                "{responses} responses and {contacts} contacts at {points} points, {draws} draws; strains are "
-                "interpolated within {error:.2g} %".format(
+                "{responses} responses and {contacts} contacts; {points} points for each criterion, {draws} draws; "
+                "the errors of the years are those of {held_back} direct solves held back and of the draws; a strain "
+                "left out is interpolated within {error:.2g} %".format(
                     **self.stats, error=100 * float(np.max(data["surface_error"].to_numpy()))
                 )
             )
@@ -122,6 +118,16 @@ class Reliability(BaseResult, group="reliability"):
                 row("verdict", f"the road fails within its design life of {years:g} years with {_percent(chance)}.")
             )
         return tuple(rows)
+
+
+def _at_risks(at: xr.Dataset, risks: list[str], years: str, error: str, group: str) -> list[Row]:
+    """Years at the risks, by the name of their variable, with their error where there is one. error: name or ""."""
+    rows = []
+    for k, risk in enumerate(risks):
+        share = float(at[error][k]) if error else math.nan
+        note = "" if math.isnan(share) else f"± {max(100 * share, 0.1):.2g} % by its error"
+        rows.append(row(years, at[years][k], label=f"{display_of(years).label} {risk}", group=group, note=note))
+    return rows
 
 
 def _percent(probability: float) -> str:

@@ -2,51 +2,36 @@
 
 from __future__ import annotations
 
-import json
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-import xarray as xr
-from scipy.special import ndtr
 
 from treadload import variables
 from treadload.damage.criterion import Criterion
-from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter, check_risks
-from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
-from treadload.life.reliability.inputs import (
-    FATIGUE,
-    INTERPOLATION,
-    TRAFFIC,
-    Input,
-    asked_at,
-    check_names,
-    inputs_of,
-    lognormal,
-)
-from treadload.life.reliability.propagation import MonteCarlo, Quadratic, drawn, first_order
+from treadload.life.reliability.direct import Direct
+from treadload.life.reliability.fields import Fit, reliability_dataset
+from treadload.life.reliability.inputs import check_names, inputs_of, lognormal
+from treadload.life.reliability.propagation import MonteCarlo, Quadratic
 from treadload.life.reliability.solution import Reliability
 from treadload.life.reliability.surface import designed, fitted
 from treadload.life.threads import pool_of
-from treadload.life.variants import Solver, most
+from treadload.life.variants import most
 from treadload.pavement import Pavement
 
-# Years of the curves; distances β of the first order between which its probabilities are interpolated.
-_YEARS, _BETAS = 80, np.linspace(-4.5, 4.5, 73)
-_LONGEST = 1e4
 _SAMPLING = MonteCarlo()
 # An error of the surface, relative in strain, above which it is worth a sentence.
 _DOUBTFUL = 0.03
+# Of fewer direct solves no error of their mean follows.
+FEWEST_HELD = 2
 
 
 def life_reliability(
@@ -56,6 +41,7 @@ def life_reliability(
     risks: Sequence[float] = (0.05, 0.5, 0.95),
     criteria: Sequence[str] | None = None,
     coverage: float = 0.5,
+    held_back: int = 4,
     sampling: MonteCarlo = _SAMPLING,
     workers: int | None = None,
     progress: Progress | None = None,
@@ -64,11 +50,14 @@ def life_reliability(
 
     life: of the design, whose scatter counts. risks: in (0, 1). criteria: names; all that ever fail if left out.
     coverage: share of a criterion's damage, in (0, 1], whose classes and seasons are solved again; the rest is taken
-    to change as they do. sampling: the draws. workers, progress: as in `solve_passages`.
+    to change as they do but along the likeliest line of failure, where it is solved too. held_back: direct solves at
+    each risk from which the error of its years follows; 0 for none, and no error. sampling: the draws. workers,
+    progress: as in `solve_passages`.
 
     The strain that does the damage of a year is solved at few points of thickness, moduli and temperature, and
     interpolated by a quadratic with cross terms in its logarithm; what cross-validation finds as its error scatters,
-    too. A law that has k_r in it (`risk_factor`) is taken at its median, so that its risk does not count twice.
+    too. Nearly all classes and seasons of some draws at each risk are solved directly: by how much the surface misses
+    them, and what the number of draws leaves open, is the error of the years. A law that has k_r in it (`risk_factor`) is taken at its median, so that its risk does not count twice.
     Raises InputError for risks that are 0 or 1, and for a life that never ends; ConvergenceError of a contact.
     """
     start = time.perf_counter()
@@ -76,6 +65,8 @@ def life_reliability(
     road, scatter = design.road, design.scatter or Scatter()
     if not 0 < coverage <= 1:
         raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.5 is the default")
+    if held_back != 0 and held_back < FEWEST_HELD:
+        raise InputError(f"held_back must be 0, for no error, or at least {FEWEST_HELD}, got {held_back}")
     chosen, caveats = _chosen(life, criteria)
     deviations, without = _fatigue(life, road, chosen, scatter)
     caveats += without
@@ -84,30 +75,25 @@ def life_reliability(
     points = designed(len(inputs))
     fits: list[Fit] = []
     errors, covered = [], []
-    solved = responses = 0
     with pool_of(workers) as pool:
+        direct = Direct(design, life, inputs, pool, progress)
         for number, deviation in zip(chosen, deviations, strict=True):
-            criterion = life.criteria[number]
             pairs, share = most(life.dataset["damage_share"].to_numpy()[number], coverage)
-            solver = Solver(criterion, pairs, design.contacts, progress)
-            questions = [asked_at(inputs, road, life.traffic, life.climate, point) for point in points]
-            damage = np.array(solver.damages(questions, pool)) if inputs else np.ones(1)
-            if not (damage > 0).all():
-                raise InputError(
-                    f"{criterion.name}: within the scatter of the inputs it does no damage at all, so that no "
-                    "surface runs through its logarithm; scatter less, or leave it out by criteria="
-                )
+            logarithms = direct.logarithms(number, coverage, points) if inputs else np.zeros(1)
             law = life.laws[number][pairs[0][1]]
             power = _power(law, float(life.dataset["largest_reading"][number]))
-            _, gradient, curvature, error = fitted(points, np.log(damage) / power)
+            _, gradient, curvature, error = fitted(points, logarithms / power)
             peak = float(life.dataset["damage_per_year"][number].max())
             constant = math.log(peak) + power * math.log(_risk_factor(law))
             surface = _with_rest(constant, power, gradient, curvature, scatter, deviation, error)
-            fits.append(Fit(number, deviation, surface, power))
+            missed = np.full(len(risk_levels), math.nan if held_back == 0 else 0.0)
+            if inputs:
+                surface, middle = direct.corrected(number, surface)
+                if held_back:
+                    missed = direct.held_back(number, surface, middle, risk_levels, held_back, sampling.seed)
+            fits.append(Fit(number, deviation, surface, power, missed))
             errors.append(error)
             covered.append(share)
-            solved += solver.solved if inputs else 0
-            responses += solver.responses if inputs else 0
     dataset = reliability_dataset(life, inputs, scatter, fits, risk_levels, sampling)
     dataset = dataset.assign(
         surface_error=("criterion", np.expm1(errors), variables.attributes("surface_error")),
@@ -131,9 +117,10 @@ def life_reliability(
         if (share := _weather_share(life, k)) > 0
     )
     stats = {
-        "contacts": solved,
-        "responses": responses,
+        "contacts": direct.contacts,
+        "responses": direct.responses,
         "points": len(points) if inputs else 0,
+        "held_back": held_back * len(risk_levels) * len(fits) if inputs else 0,
         "draws": sampling.draws,
         "seed": sampling.seed,
         "seconds": time.perf_counter() - start,
@@ -217,105 +204,3 @@ def _with_rest(
     bent = np.zeros((len(gradient) + len(rest),) * 2)
     bent[: len(gradient), : len(gradient)] = power * curvature
     return Quadratic(constant, np.concatenate([power * gradient, rest]), bent)
-
-
-@dataclass(frozen=True, eq=False)
-class Fit:
-    """Damage of a criterion over what scatters.
-
-    number: of the criterion. deviation: SN. surface: ln D over the inputs, traffic, fatigue and the error. power: to
-    which its damage grows with its strain.
-    """
-
-    number: int
-    deviation: float
-    surface: Quadratic
-    power: float
-
-
-def reliability_dataset(
-    life: Life,
-    inputs: Sequence[Input],
-    scatter: Scatter,
-    fitted_to: Sequence[Fit],
-    risks: tuple[float, ...],
-    sampling: MonteCarlo,
-) -> xr.Dataset:
-    """The dataset of a reliability, without what was solved for it. fitted_to: each criterion."""
-    traffic, chosen = life.traffic, [fit.number for fit in fitted_to]
-    surfaces, powers = [fit.surface for fit in fitted_to], np.array([fit.power for fit in fitted_to])
-    every = drawn(surfaces, len(inputs) + 1, sampling.draws, sampling.seed)
-    # Of a road that has failed as soon as one of its criteria has.
-    road = np.sort(every.max(axis=0))
-    every.sort(axis=1)
-    at_risk = np.quantile(every, 1 - np.array(risks), axis=1).T
-    point = [[first_order(surface, risk) for risk in risks] for surface in surfaces]
-    median = np.quantile(every, 0.5, axis=1)
-    names = [*(unsure.name for unsure in inputs), TRAFFIC, FATIGUE, INTERPOLATION]
-    widths = np.array([unsure.width for unsure in inputs] + [math.nan] * 3)
-    slopes = np.array([surface.gradient for surface in surfaces]) / powers[:, None] / math.log(10)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        per_length = np.nanmin(np.where(np.isnan(widths), np.inf, slopes / widths), axis=1)
-    years = _years(traffic, every)
-    needed = np.array([-math.log(growth_factor(float(year), traffic.growth, traffic.kind)) for year in years])
-    curves = np.array([[_first_order_of(surface, beta) for beta in _BETAS] for surface in surfaces])
-    laws = [life.laws[number][0] for number in chosen]
-    fields: dict[str, tuple[tuple[str, ...], Any]] = {
-        "years_at_risk": (("criterion", "risk"), _in_years(traffic, at_risk)),
-        "years_at_risk_first_order": (
-            ("criterion", "risk"),
-            _in_years(traffic, np.array([[damage for damage, _ in row] for row in point])),
-        ),
-        "risk_factor": (("criterion", "risk"), np.exp((median[:, None] - at_risk) / powers[:, None])),
-        "failure_probability": (("criterion", "year"), np.array([_share_above(row, needed) for row in every])),
-        "failure_probability_first_order": (
-            ("criterion", "year"),
-            np.array([ndtr(-np.interp(needed, row, _BETAS)) for row in curves]),
-        ),
-        "importance": (("criterion", "input"), np.array([row[0][1] ** 2 for row in point])),
-        "road_years_at_risk": (("risk",), _in_years(traffic, np.quantile(road, 1 - np.array(risks)))),
-        "road_failure_probability": (("year",), _share_above(road, needed)),
-        "fatigue_scatter": (("criterion",), [fit.deviation for fit in fitted_to]),
-        "law_risk": (("criterion",), [float(getattr(law, "risk", math.nan)) for law in laws]),
-        "law_risk_factor": (("criterion",), [float(getattr(law, "risk_factor", math.nan)) for law in laws]),
-        "law_years": (("criterion",), life.dataset["life_years"].to_numpy()[list(chosen)]),
-        "thickness_slope": (("criterion",), np.where(np.isfinite(per_length), -per_length, np.nan)),
-    }
-    coordinates = {
-        "criterion": [life.criteria[number].name for number in chosen],
-        "risk": list(risks),
-        "year": years,
-        "input": names,
-    }
-    words = [*(unsure.deviation for unsure in inputs), f"{100 * scatter.traffic:g} %", "SN", "error of the surface"]
-    return variables.dataset(
-        fields,
-        coordinates,
-        deviations=json.dumps(words, ensure_ascii=False),
-        ends=json.dumps([law.end_of_life for law in laws], ensure_ascii=False),
-        **({} if traffic.years is None else {"design_years": traffic.years}),
-    )
-
-
-def _years(traffic: Traffic, every: Array) -> Array:
-    """Years of the curves, evenly spaced in their logarithm, from the first to the last thousandth of all draws."""
-    low, high = np.quantile(every, [0.999, 0.001])
-    first, last = (min(max(year, 0.05), _LONGEST) for year in _in_years(traffic, np.array([low, high])))
-    return np.geomspace(min(first, 0.5 * last), last, _YEARS)
-
-
-def _in_years(traffic: Traffic, logarithms: Array) -> Array:
-    """Years until damages of a year, by their logarithms, have added up to 1."""
-    passes = traffic.passes_per_year * np.exp(-logarithms)
-    return np.array([traffic.years_to(float(count)) for count in passes.ravel()]).reshape(passes.shape)
-
-
-def _share_above(rising: Array, bounds: Array) -> Array:
-    """Share of sorted values that lies above each bound."""
-    share: Array = 1 - np.searchsorted(rising, bounds, side="right") / len(rising)
-    return share
-
-
-def _first_order_of(surface: Quadratic, beta: float) -> float:
-    """Ln D at a distance β of the first order."""
-    return first_order(surface, float(ndtr(-beta)))[0]
