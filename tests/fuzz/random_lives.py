@@ -1,8 +1,8 @@
 """Random lives of one class and one season: no largest value on the border of what was solved without a warning.
 
-Each is solved as its case asks, and once more on a field 1.6 times as wide on all sides. Where the wider field holds a
-larger value, the life must have named its border; where it holds none, it need not. `python -m fuzz random_lives`, in
-the folder tests; the words of the tally count the lives with such a warning.
+Each is solved as its case asks, and once more on a field 1.6 times as wide on all sides. Where the wider field holds
+a larger value, the life must have named its border; where it holds none, it need not. `python -m fuzz random_lives`,
+in the folder tests; the words of the tally count the lives with such a warning.
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ def draw(rng: random.Random) -> Table:
     layers, names = _layers(rng)
     row: Table = {
         "name": "axle", "share": 1, "axle_load": rng.uniform(4e4, 1.3e5), "gear": rng.choice(_GEARS),
-        "inflation_pressure": rng.uniform(6e5, 9.5e5), "maneuver": rng.choice(_MANEUVERS), "speed": rng.uniform(5, 25),
+        "inflation_pressure": rng.uniform(6e5, 9.5e5), "maneuver": rng.choice(_MANEUVERS),
+        "speed": rng.uniform(5, 25),
     }  # fmt: skip
     traffic: Table = {"passes_per_year": 1e5, "classes": [row]}
     if rng.random() < 0.5:

@@ -19,7 +19,7 @@ from treadload.damage.laws.american import (
     ShellFatigue,
 )
 from treadload.damage.laws.equivalence import equivalent_axles
-from treadload.damage.laws.fatigue import FatigueLine, warnings_of
+from treadload.damage.laws.fatigue import FatigueLine
 from treadload.damage.laws.french import FrenchBituminous, FrenchHydraulic, FrenchSubgrade
 from treadload.damage.laws.indian import (
     IrcCementTreated,
@@ -28,6 +28,7 @@ from treadload.damage.laws.indian import (
     granular_modulus,
     subgrade_modulus,
 )
+from treadload.damage.laws.validity import warnings_of
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 

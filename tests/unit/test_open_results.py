@@ -26,9 +26,9 @@ from treadload.damage.pitch import respond_to_pitch
 from treadload.damage.scatter import Scatter
 from treadload.damage.verdict import with_error
 from treadload.life.layered_climate import climate_fields
+from treadload.life.reliability.fields import Fit, reliability_dataset
 from treadload.life.reliability.inputs import inputs_of
 from treadload.life.reliability.propagation import Quadratic
-from treadload.life.reliability.fields import Fit, reliability_dataset
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
@@ -115,7 +115,12 @@ def reliability():
     flat = Quadratic(np.log(0.02), np.array([0.8, 0.15, 0.7, 0.1]), np.zeros((4, 4)))
     scatter = Scatter(thickness=5e-3, traffic=0.15)
     data = reliability_dataset(
-        life(), inputs, scatter, [Fit(0, 0.3, flat, 5.0, np.array([0.02, 0.01]))], (0.05, 0.5), tl.life.MonteCarlo(1000, 1)
+        life(),
+        inputs,
+        scatter,
+        [Fit(0, 0.3, flat, 5.0, np.array([0.02, 0.01]))],
+        (0.05, 0.5),
+        tl.life.MonteCarlo(1000, 1),
     )
     data = data.assign(surface_error=("criterion", [0.01]), coverage=("criterion", [0.6]))
     stats = {"contacts": 0, "responses": 5, "points": 5, "held_back": 8, "draws": 1000, "seed": 1, "seconds": 0.1}

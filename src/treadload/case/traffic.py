@@ -117,7 +117,9 @@ class TrafficPart(Table):
     """`[traffic]`: what passes over the wheel path, how that grows, and for how long.
 
     passes_per_year: of all classes, in the first year. growth: per year. kind: of growth, "geometric" or
-    "arithmetic". years: for which the road is designed. wander: of the wheels across the road; left out, none.
+    "arithmetic". growth_years: for which it grows, and stays as it is from then on; left out, 40 years, or the design
+    life where that is longer. years: for which the road is designed. wander: of the wheels across the road; left out,
+    none.
     frequency: the rule by which each class reads moduli at its own speed and depth, "mepdg" or "brown"; left out, the
     one frequency of the road, 10 Hz, for which French laws are made. angular: True for f = 1/(2πt), False for 1/t;
     left out, as the source of the rule has it. standard_axle: in whose passes the traffic is stated: "french", 130 kN
@@ -128,6 +130,7 @@ class TrafficPart(Table):
     passes_per_year: PerYear
     growth: Share = 0.0
     kind: Literal["geometric", "arithmetic"] = "geometric"
+    growth_years: Years | None = None
     years: Years | None = None
     wander: Annotated[Any, WANDER] = None
     frequency: Literal["mepdg", "brown"] | None = None
@@ -146,4 +149,6 @@ class TrafficPart(Table):
         wander = Wander.none() if self.wander is None else WANDER.build(self.wander)
         axle = STANDARD_AXLES.get(self.standard_axle) if isinstance(self.standard_axle, str) else None
         axle = axle or STANDARD_AXLE.build(self.standard_axle)
-        return Traffic(tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years, axle)
+        return Traffic(
+            tuple(rows), self.passes_per_year, self.growth, self.kind, wander, self.years, axle, self.growth_years
+        )

@@ -17,7 +17,7 @@ from treadload.composing import BaseResult, Holds, Source, dataset_of
 from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
-from treadload.damage.laws.fatigue import warnings_of
+from treadload.damage.laws.validity import warnings_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest

@@ -14,7 +14,6 @@ from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, orientation
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import harm_of
-from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.life import Life
 from treadload.damage.thermal import DailyCycles, years_until
@@ -145,7 +144,7 @@ def miner(
         fields["life_years_without_wander"] = (("criterion",), years_of(still))
         fields["life_years_with_wander"] = (("criterion",), years_of(wandering))
     if traffic.years is not None:
-        growth = growth_factor(traffic.years, traffic.growth, traffic.kind)
+        growth = traffic.growth_factor(traffic.years)
         fields["design_damage"] = (("criterion",), busy * growth + days * traffic.years)
     if cracks is not None:
         fields |= _cracks(damage, cracks, wanders, spacing, columns, peak)
@@ -156,6 +155,7 @@ def miner(
         passes_per_year=traffic.passes_per_year,
         growth=traffic.growth,
         growth_kind=traffic.kind,
+        **({"growth_years": traffic.grows_for} if math.isfinite(traffic.grows_for) else {}),
         wander=str(traffic.wander),
         **({} if traffic.years is None else {"design_years": traffic.years}),
         **criteria_attributes(criteria, firsts),
@@ -192,7 +192,7 @@ def _utilisation(laws: Sequence[Sequence[FatigueLaw]], readings: Array, traffic:
     Of the first year where there is no design life.
     """
     years = traffic.years
-    passes = traffic.passes_per_year * (1.0 if years is None else growth_factor(years, traffic.growth, traffic.kind))
+    passes = traffic.passes_per_year * (1.0 if years is None else traffic.growth_factor(years))
     if not passes > 0:
         return 0.0
     largest = readings.max(axis=(2, 3))

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.optimize import brentq
 
-from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
@@ -125,7 +124,7 @@ def years_until(traffic: Traffic, damage: float, weather: float) -> float:
     last = min(alone, 1 / weather)
 
     def left(years: float) -> float:
-        return damage * growth_factor(years, traffic.growth, traffic.kind) + weather * years - 1
+        return damage * traffic.growth_factor(years) + weather * years - 1
 
     # At the shorter of the two lives one of them alone is 1, and both are no less.
     return last if left(last) <= 0 else float(brentq(left, 1e-9 * last, last, rtol=1e-12))

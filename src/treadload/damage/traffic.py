@@ -24,6 +24,12 @@ from treadload.units import Length, Share
 
 # Wander is cut where 6e-7 of the wheels are left, and the rest scaled to one.
 _SIGMAS = 5.0
+GROWS = 40.0
+"""Years from the opening for which a traffic grows, unless its design life is longer; a judgement of this package.
+
+Counts are extrapolated no further than roads are designed for, 20 to 40 years: no lane can carry exponential growth
+for centuries. From then on every year has the traffic of the last that grew; one that shrinks goes on shrinking.
+"""
 
 
 @dataclass(frozen=True)
@@ -179,7 +185,9 @@ class Traffic:
 
     classes: rows whose shares sum to 1. passes_per_year: of all classes, in the first year, over the wheel path.
     growth: per year, > -1; kind: "geometric" or "arithmetic". wander: across the road. years: for which the road is
-    designed, > 0, or None. standard_axle: in whose passes the traffic is stated. Raises InputError.
+    designed, > 0, or None. standard_axle: in whose passes the traffic is stated. growth_years: for which it grows
+    from the opening, >= 1, and stays as it is from then on; left out, `GROWS` or its design life, whichever is
+    longer. Raises InputError.
     """
 
     classes: tuple[AxleClass, ...]
@@ -189,6 +197,7 @@ class Traffic:
     wander: Wander = Wander()
     years: float | None = None
     standard_axle: StandardAxle = STANDARD_AXLES["french"]
+    growth_years: float | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "classes", tuple(self.classes))
@@ -203,11 +212,36 @@ class Traffic:
             raise InputError(f"passes_per_year must be >= 0, got {self.passes_per_year}")
         if self.years is not None:
             positive("the design life", self.years, "years", "leave it out for none")
+        if self.growth_years is not None and not (math.isfinite(self.growth_years) and self.growth_years >= 1):
+            raise InputError(
+                f"growth_years must be at least 1 year, got {self.growth_years:g}; leave it out for {GROWS:g} years "
+                "or the design life, or give growth = 0"
+            )
         growth_factor(self.years or 1.0, self.growth, self.kind)
+
+    @property
+    def grows_for(self) -> float:
+        """Years from the opening for which it grows; inf for a traffic that shrinks or stays."""
+        if self.growth <= NO_GROWTH:
+            return math.inf
+        return max(GROWS, self.years or 0.0) if self.growth_years is None else self.growth_years
+
+    def growth_factor(self, years: float) -> float:
+        """Passes over a number of years from the opening, over those of the first."""
+        last = self.grows_for
+        if years <= last:
+            return growth_factor(years, self.growth, self.kind)
+        return growth_factor(last, self.growth, self.kind) + (years - last) * self._last_year
+
+    @property
+    def _last_year(self) -> float:
+        """Passes of the last year that grows over those of the first."""
+        grown = self.growth * (self.grows_for - 1)
+        return (1 + self.growth) ** (self.grows_for - 1) if self.kind == "geometric" else 1 + grown
 
     def passes(self, years: float) -> float:
         """Passes of all classes over a number of years from the opening."""
-        return self.passes_per_year * growth_factor(years, self.growth, self.kind)
+        return self.passes_per_year * self.growth_factor(years)
 
     def years_to(self, passes: float) -> float:
         """Years until so many passes; inf where a traffic that shrinks, or none, never makes them."""
@@ -220,6 +254,8 @@ class Traffic:
         ratio, growth = passes / self.passes_per_year, self.growth
         if abs(growth) <= NO_GROWTH:
             return ratio
+        if growth > 0 and (beyond := ratio - growth_factor(self.grows_for, growth, self.kind)) > 0:
+            return self.grows_for + beyond / self._last_year
         if self.kind == "geometric":
             return math.log1p(ratio * growth) / math.log1p(growth) if ratio * growth > -1 else math.inf
         # growth/2 n² + (1 - growth/2) n = ratio, the root that grows out of n = 0.

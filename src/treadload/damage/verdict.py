@@ -25,7 +25,8 @@ from treadload.damage.cracks import (
     orientation,
 )
 from treadload.damage.laws.conditions import conditions_of
-from treadload.damage.laws.fatigue import PowerLaw, warnings_of
+from treadload.damage.laws.fatigue import PowerLaw
+from treadload.damage.laws.validity import warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
 from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
 from treadload.damage.rib_sides import filled_ribs

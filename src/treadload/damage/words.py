@@ -15,7 +15,8 @@ from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import HORIZONTAL, NONE, ORIENTATIONS, opens_down
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.conditions import conditions_of
-from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
+from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.laws.validity import range_warnings
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -63,9 +64,10 @@ def check_life(data: xr.Dataset) -> None:
 
 def heading_of(traffic: Traffic, climate: Climate) -> str:
     """Traffic and climate of a life in a line."""
+    span = f" for {traffic.grows_for:g} years, constant from then on" if math.isfinite(traffic.grows_for) else ""
     return (
         f"{traffic.passes_per_year:.4g} load repetitions in the first year, growth {100 * traffic.growth:g} % per "
-        f"year, {traffic.wander}, {len(climate.seasons)} season(s)"
+        f"year{span}, {traffic.wander}, {len(climate.seasons)} season(s)"
     )
 
 
@@ -270,10 +272,11 @@ def cautions(
     laws: (criterion, axle_class, season). readings: (criterion, axle_class, season, turn, y). shares: of the damage,
     (criterion, axle_class, season). twice: of each criterion, whether its law includes the wander of the traffic.
     """
+    names = ([str(row) for row in data["axle_class"].to_numpy()], [str(row) for row in data["season"].to_numpy()])
     warnings = [
         f"{criterion.name}: {text}"
         for k, criterion in enumerate(criteria)
-        for text in _warnings(laws[k], readings[k], shares[k])
+        for text in range_warnings(laws[k], readings[k].max(axis=(2, 3)), shares[k], names)
     ]
     warnings += [
         f"{criterion.name}: {criterion.quantity}: {criterion.quantity.doubt}"
@@ -308,13 +311,6 @@ def _flat(data: xr.Dataset, criteria: Sequence[Criterion]) -> list[str]:
         for name, share, criterion in zip(data["criterion"].to_numpy(), shares, criteria, strict=True)
         if share > _MOSTLY and not criterion.quantity.between_layers
     ]
-
-
-def _warnings(laws: Sequence[Sequence[FatigueLaw]], values: Array, shares: Array) -> list[str]:
-    """Sentences on a criterion: of the season that does most, and of that which is read largest."""
-    seasons = dict.fromkeys([int(shares.sum(axis=0).argmax()), int(values.max(axis=(0, 2, 3)).argmax())])
-    heaviest = int(values.max(axis=(1, 2, 3)).argmax())
-    return [text for season in seasons for text in warnings_of(laws[heaviest][season], values[:, season])]
 
 
 def _degrees(angle: float) -> str:

@@ -15,7 +15,6 @@ from scipy.optimize import brentq
 from treadload import variables
 from treadload.damage.climate import Climate, Season
 from treadload.damage.indices import depth_factor
-from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.rutting import COLDEST, DOUBT, SOIL, UNBOUND, WARMEST, Rutting
 from treadload.damage.traffic import Traffic
 from treadload.kernels.arrays import Array
@@ -77,7 +76,7 @@ def rut_fields(design: Design, rutting: Rutting, wheels: Sequence[Wheels]) -> tu
 
     def rut(years: float) -> Array:
         """Of every layer across, (layer, y), m."""
-        passes = traffic.passes_per_year * growth_factor(years, traffic.growth, traffic.kind)
+        passes = traffic.passes(years)
         each = np.where(asphalt[:, None], (rate * passes) ** power, 0.0)
         # The mean strain of an axle times the curve at the number of all of them.
         each = each + np.where(

@@ -11,8 +11,9 @@ from treadload.case import Case
 from treadload.case.criteria import CRITERION
 from treadload.damage import Verdict
 from treadload.damage.criterion import Criterion
-from treadload.damage.laws.fatigue import FatigueLaw, warnings_of
+from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.french import RISK
+from treadload.damage.laws.validity import outside, warnings_of
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -62,8 +63,7 @@ class Allowed:
     @property
     def extrapolated(self) -> bool:
         """True if the reading lies outside of what tests or roads behind the law have seen."""
-        low, high = self.law.validity
-        return self.reading > 0 and not low <= self.reading <= high
+        return bool(outside(self.law, self.reading))
 
     @property
     def warnings(self) -> tuple[str, ...]:

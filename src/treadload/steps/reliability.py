@@ -24,7 +24,8 @@ class ReliabilityStep(Step, name="reliability"):
     Sh, of all asphalt, or a table by the names of layers; left out, by the rule of the French method. moduli:
     coefficient of variation of every layer's modulus, or a table by the names of layers. traffic: coefficient of
     variation of the passes. temperature: of the year. coverage: share of a criterion's damage that is solved again
-    with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of the Monte Carlo. seed: of the draws.
+    with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of
+    the Monte Carlo. seed: of the draws.
     """
 
     after: ClassVar = ("life",)

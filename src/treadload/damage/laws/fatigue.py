@@ -224,24 +224,6 @@ class PowerLine(PowerLaw):
         return f"power law of the {self.reads}, {self.reads.in_words(self.at_a_million)}, slope {self.slope:g}"
 
 
-def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
-    """Sentences for the user on what a law says of a reading: numbers without a source, extrapolation.
-
-    strain: what the law reads, any shape; the largest finite value decides. Without a reading nothing is said.
-    """
-    caveats = [f"{law}: {law.doubt}"] if law.doubt else []
-    strains = np.asarray(strain, dtype=float)
-    largest = float(np.max(strains, where=np.isfinite(strains), initial=0.0))
-    low, high = law.validity
-    if 0 < largest < low or largest > high:
-        beyond, bound = ("above", high) if largest > high else ("below", low)
-        caveats.append(
-            f"{law}: {law.reads.in_words(largest)} is {beyond} {law.reads.in_words(bound)}, the limit of its "
-            f"range; {law.allowable_passes(largest):.2g} load repetitions are extrapolated"
-        )
-    return tuple(caveats)
-
-
 def check_strain(epsilon_6: float) -> None:
     """Raise InputError unless epsilon_6 is a plain strain that a road material can bear a million times."""
     positive("epsilon_6", epsilon_6, remedy="120 microstrain is 120e-6")

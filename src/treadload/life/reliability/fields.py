@@ -13,7 +13,6 @@ import xarray as xr
 from scipy.special import ndtr
 
 from treadload import variables
-from treadload.damage.laws.equivalence import growth_factor
 from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter
 from treadload.damage.traffic import Traffic
@@ -71,7 +70,7 @@ def reliability_dataset(
     with np.errstate(divide="ignore", invalid="ignore"):
         per_length = np.nanmin(np.where(np.isnan(widths), np.inf, slopes / widths), axis=1)
     years = _years(traffic, every)
-    needed = np.array([-math.log(growth_factor(float(year), traffic.growth, traffic.kind)) for year in years])
+    needed = np.array([-math.log(traffic.growth_factor(float(year))) for year in years])
     curves = np.array([[_first_order_of(surface, beta) for beta in _BETAS] for surface in surfaces])
     laws = [life.laws[number][0] for number in chosen]
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
@@ -127,7 +126,7 @@ def _in_years(traffic: Traffic, logarithms: Array) -> Array:
 
 
 def _years_error(traffic: Traffic, logarithms: Array, missed: Array) -> Array:
-    """Largest part of the years by which they change as ln D changes by what it may have missed; NaN without years."""
+    """Part of the years by which they change at most as ln D does by what it may have missed; NaN without."""
     years = _in_years(traffic, logarithms)
     ends = np.stack([_in_years(traffic, logarithms - missed), _in_years(traffic, logarithms + missed)])
     with np.errstate(invalid="ignore"):

@@ -57,7 +57,8 @@ def life_reliability(
     The strain that does the damage of a year is solved at few points of thickness, moduli and temperature, and
     interpolated by a quadratic with cross terms in its logarithm; what cross-validation finds as its error scatters,
     too. Nearly all classes and seasons of some draws at each risk are solved directly: by how much the surface misses
-    them, and what the number of draws leaves open, is the error of the years. A law that has k_r in it (`risk_factor`) is taken at its median, so that its risk does not count twice.
+    them, and what the number of draws leaves open, is the error of the years. A law that has k_r in it
+    (`risk_factor`) is taken at its median, so that its risk does not count twice.
     Raises InputError for risks that are 0 or 1, and for a life that never ends; ConvergenceError of a contact.
     """
     start = time.perf_counter()

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload import variables
+from treadload.damage.laws.validity import outside
 from treadload.damage.life import Life
 from treadload.damage.miner import miner
 from treadload.damage.words import RUT
@@ -176,7 +177,7 @@ def _warned(design: Design, life: Life, solved: _Solved) -> list[str]:
     remedy, changed = solved.remedy, solved.remedy.design
     texts = [remedy.remark] if remedy.remark else []
     for number, criterion in enumerate(life.criteria):
-        before, after = _beyond(life, number), _beyond(solved.life, number)
+        before, after = _outside(life, number), _outside(solved.life, number)
         if after and not before:
             texts.append(f"{remedy.name}: it leaves the range of the law of {criterion.name}: {after}")
     before_too = {
@@ -190,16 +191,10 @@ def _warned(design: Design, life: Life, solved: _Solved) -> list[str]:
     return texts + [f"{remedy.name}: {text}" for text in fresh if text not in before_too]
 
 
-def _beyond(life: Life, number: int) -> str:
+def _outside(life: Life, number: int) -> str:
     """Which bound of a law the value that does most of a criterion's damage is beyond, in words; empty if none."""
     share: Array = life.dataset["damage_share"].to_numpy()[number]
     if not share.max() > 0:
         return ""
     row, season = (int(k) for k in np.unravel_index(int(share.argmax()), share.shape))
-    law = life.class_laws[number][row][season]
-    value = float(life.readings.to_numpy()[number, row, season].max())
-    low, high = law.validity
-    if low <= value <= high:
-        return ""
-    side, bound = ("above", high) if value > high else ("below", low)
-    return f"{law.reads.in_words(value)} is {side} {law.reads.in_words(bound)}"
+    return outside(life.class_laws[number][row][season], float(life.readings.to_numpy()[number, row, season].max()))
