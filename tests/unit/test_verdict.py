@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from treadload import variables
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade, assess
 from treadload.damage.cracks import ORIENTATIONS, crack_plane
-from treadload.damage.laws.fatigue import warnings_of
+from treadload.damage.laws.validity import warnings_of
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic

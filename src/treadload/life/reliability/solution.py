@@ -31,7 +31,8 @@ class Reliability(BaseResult, group="reliability"):
     failure_probability_first_order (criterion, year); years_error (criterion, risk) and road_years_error (risk),
     parts of the years by which they may err, NaN where that was not looked for; importance (criterion, input), α² of
     the first order at the smallest risk; road_years_at_risk (risk) and road_failure_probability (year) of the first
-    criterion to fail; thickness_slope, surface_error, coverage (criterion). scatter: what was asked. stats: what was solved and drawn.
+    criterion to fail; thickness_slope, surface_error, coverage (criterion). scatter: what was asked. stats: what was
+    solved and drawn.
     warnings: sentences for the user.
     """
 
