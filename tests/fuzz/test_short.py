@@ -29,6 +29,14 @@ def test_nothing_breaks(kind, count):
     assert {"refused", "taken"} <= set(tally.words)
 
 
+@pytest.mark.parametrize("count", [pytest.param(4, id="few"), pytest.param(60, id="some", marks=pytest.mark.slow)])
+def test_no_largest_value_of_a_life_lies_on_a_border_unnoticed(count):
+    """1000 of the same seed: none, and 0 lives with the warning; the bound is 5 %."""
+    tally = run("random_lives", attack_of("random_lives"), seed=1, indices=range(count))
+    assert not tally.failures, str(tally)
+    assert tally.words["quiet"] >= 0.95 * count
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("kind", "count"), [("solved", 40), ("solved_lives", 15)])
 def test_what_is_drawn_is_solved_and_right(kind, count):

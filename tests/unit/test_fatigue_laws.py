@@ -28,7 +28,7 @@ from treadload.damage.laws.indian import (
     granular_modulus,
     subgrade_modulus,
 )
-from treadload.damage.laws.validity import warnings_of
+from treadload.damage.laws.validity import range_warnings, warnings_of
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError
 
@@ -128,6 +128,29 @@ def test_the_end_of_the_mepdg_is_that_of_its_sums_of_cracking():
     assert american.bottom_up_cracking(1.0, 0.2) == pytest.approx(0.5, rel=1e-14)
     assert "a metre of crack along each metre" in MepdgTopDown.end_of_life
     assert american.top_down_cracking(1.0) == pytest.approx(1.0, rel=1e-14)
+
+
+def test_damage_outside_of_a_range_is_stated_by_its_share():
+    """N = 10⁴ at 251 microstrain: 300 lies outside, and is the largest value though another season does the damage."""
+    line = FatigueLine(100e-6, -0.2)
+    names = (["heavy", "light"], ["cold", "warm"])
+    readings = np.array([[120e-6, 300e-6], [100e-6, 110e-6]])
+
+    def texts(shares):
+        return range_warnings([[line] * 2] * 2, readings, np.array(shares), names)
+
+    (little,) = texts([[0.9, 0.02], [0.05, 0.03]])
+    assert "300 microstrain is above 251" in little
+    assert "% of the damage" not in little
+    (much,) = texts([[0.3, 0.65], [0.05, 0.0]])
+    assert (
+        "65 % of the damage is done outside of its range, most by heavy, warm: 300 microstrain is above 251" in much
+    )
+    # Where most of the damage is done outside and the largest value lies inside, only the first is told.
+    low = range_warnings([[line]], np.array([[10e-6]]), np.array([[1.0]]), (["one"], ["year"]))
+    assert len(low) == 1
+    assert "100 % of the damage is done outside" in low[0]
+    assert range_warnings([[line]], np.array([[100e-6]]), np.array([[1.0]]), (["one"], ["year"])) == []
 
 
 def test_extrapolation_is_said_with_its_numbers():

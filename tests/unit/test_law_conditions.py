@@ -4,8 +4,12 @@ import numpy as np
 import pytest
 
 from treadload.damage import AxleClass, Climate, Criterion, FatigueLine, FrenchBituminous, Traffic
+from treadload.damage.laws.american import AsphaltInstitute, MepdgBottomUp
 from treadload.damage.laws.conditions import conditions_of
+from treadload.damage.laws.indian import IrcFatigue
+from treadload.damage.laws.of_layer import OnLayer, law_of_layer
 from treadload.damage.miner import miner
+from treadload.pavement import Pavement
 from treadload.units import years_in_words
 
 
@@ -18,7 +22,24 @@ def test_the_french_line_is_of_10_degrees_and_25_hertz():
     line = conditions_of(FrenchBituminous(90e-6, -0.2, 0.3, 0.2, 0.05, 1.3))
     assert "25 Hz" in line
     assert "10 °C" in line
-    assert "controlled strain or stress, rest periods: not stated" in line
+    assert "constant displacement" in line
+    assert "from memory" in line
+
+
+def test_a_line_of_a_mix_is_tested_as_its_mix_and_given_numbers_are_not():
+    """The source of the catalogue states 10 °C and 25 Hz for ε₆; the user's numbers state nothing."""
+    at = OnLayer("top", Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3"), 0)
+    of_mix = law_of_layer(FatigueLine, at, {}, ("epsilon_6", "slope"))
+    assert "temperature: 10 °C" in conditions_of(of_mix)
+    assert of_mix == FatigueLine(of_mix.epsilon_6, of_mix.slope)
+    of_user = law_of_layer(FatigueLine, at, {"epsilon_6": 1e-4, "slope": -0.2}, ("epsilon_6", "slope"))
+    assert "temperature" in conditions_of(of_user).rpartition(";")[2]
+    assert conditions_of(of_user).endswith("not stated")
+
+
+def test_laws_with_a_modulus_carry_frequency_and_temperature_by_it():
+    for law in (AsphaltInstitute(5e9), IrcFatigue(3e9, 0.03, 0.11), MepdgBottomUp(5e9, 0.2, 0.06, 0.11)):
+        assert "frequency: none of its own: through E" in conditions_of(law)
 
 
 def test_a_law_of_another_package_without_the_fields_has_the_line_too():

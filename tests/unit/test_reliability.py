@@ -9,8 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize
-from scipy.special import ndtri
+from scipy.optimize import brentq, minimize
+from scipy.special import ndtr, ndtri
+from scipy.stats import qmc
 
 import treadload as tl
 from treadload.case import Case
@@ -21,6 +22,7 @@ from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.life import MonteCarlo, life_reliability, solve_life
 from treadload.life.contacts import Contacts
+from treadload.life.reliability.direct import Direct
 from treadload.life.reliability.inputs import asked_at, inputs_of
 from treadload.life.reliability.propagation import Quadratic, drawn, first_order
 from treadload.life.reliability.surface import designed, fitted
@@ -124,6 +126,67 @@ def test_first_order_and_draws_agree_on_a_surface_that_bends_little(scattered):
     assert (np.diff(found["failure_probability"].to_numpy(), axis=1) >= 0).all()
 
 
+@pytest.mark.slow
+def test_years_at_a_risk_are_those_of_direct_solves_within_their_error():
+    """Beside Sobol draws that are all solved directly: 1024 here, whose quantiles lie within 0.8 % of those of 8192.
+
+    Measured with 8192: 0.6, 0.6 and 0.4 % of the years at 5, 50 and 95 %, where 3.8, 1.9 and 2.8 % are stated; with
+    half of the damage solved and nothing held back they erred by 3.0, 0.5 and 3.1 % and 0.14 % was stated.
+    """
+    dual = AxleClass("dual", 0.5, 27e3, 820e3, wheels=((0.0, -0.1875), (0.0, 0.1875)))
+    traffic = Traffic((replace(ONE, share=0.5), dual), 1e5, growth=0.02)
+    scatter = Scatter(fatigue=0.25, moduli=0.15, traffic=0.1, temperature=1.5)
+    both = solve_life(design(traffic, (BASE,)), workers=1)
+    found = reliability(both, scatter)
+    assert float(found.dataset["coverage"][0]) < 0.8
+    inputs, _ = inputs_of(ROAD, scatter)
+    z = ndtri(qmc.Sobol(len(inputs), seed=7).random(1024))
+    solver = Solver(BASE, [(0, 0), (1, 0)], CONTACTS, None)
+    with ThreadPoolExecutor(1) as pool:
+        damage = solver.damages([asked_at(inputs, ROAD, traffic, both.climate, point) for point in z], pool)
+    median = np.log(damage) + 5 * math.log(LAW.risk_factor)
+    # Traffic and fatigue are normal in ln D: their part of the probability is exact.
+    spread = math.hypot(math.sqrt(math.log1p(0.1**2)), 0.25 * math.log(10))
+    for risk, error in zip((0.05, 0.5, 0.95), found.dataset["years_error"].to_numpy()[0], strict=True):
+        bound = brentq(lambda v, risk=risk: ndtr((median - v) / spread).mean() - risk, -20, 20)
+        years = traffic.years_to(1e5 * math.exp(-bound))
+        assert found.years(risk, "base") == pytest.approx(years, rel=0.03)
+        assert found.years(risk, "base") == pytest.approx(years, rel=error + 0.008)
+        assert 0.001 < error < 0.1
+
+
+def test_the_error_of_the_years_is_stated_or_not_looked_for(life):
+    asked = {"criteria": ["base"], "scatter": Scatter(thickness=0.01), "risks": (0.05, 0.5)}
+    found, without = reliability(life, **asked), reliability(life, **asked, held_back=0)
+    first = next(row for row in found.rows() if row.key == "years_at_risk")
+    assert first.note == f"± {100 * float(found.dataset['years_error'][0, 0]):.2g} % by its error"
+    assert found.stats["held_back"] == 8
+    # Of 10⁵ draws the quantile of 5 % of ln D has twice a standard error of 1.5 % of its deviation.
+    assert 0.005 < float(found.dataset["years_error"][0, 0]) < 0.05
+    assert np.isnan(without.dataset["years_error"]).all()
+    assert without.stats["held_back"] == 0
+    assert without.years(0.05, "base") == found.years(0.05, "base")
+    assert next(row for row in without.rows() if row.key == "years_at_risk").note == ""
+
+
+def test_what_part_of_the_damage_does_otherwise_is_added_along_the_likeliest_line():
+    """A surface of the half that is solved, and a quadratic along the likeliest direction that the whole adds to it."""
+
+    class Whole(Direct):
+        def logarithms(self, number, coverage, points):
+            return np.array([0.3 + point @ (0.8, 0.6) * 1.2 + (point @ (0.8, 0.6)) ** 2 * 0.05 for point in points])
+
+    half = Quadratic(-4.0, np.array([0.8, 0.6, 0.5]), np.zeros((3, 3)))
+    direct = Whole(None, None, (None, None), None, None)
+    whole, middle = direct.corrected(0, half)
+    assert middle == pytest.approx(0.3)
+    points = np.array([[1.0, 0.0], [0.0, 2.0], [-1.5, 0.5]])
+    at = np.pad(points, [(0, 0), (0, 1)])
+    # ln D of the whole over its middle, and what is not solved as it was.
+    np.testing.assert_allclose(whole(at) + 4.0, direct.logarithms(0, 1.0, points) - 0.3, rtol=1e-9)
+    assert whole(np.array([0.0, 0.0, 1.0])) == pytest.approx(-3.5)
+
+
 def test_a_surface_meets_solves_that_it_has_not_seen(life):
     """At points within the design the interpolated strain errs by what cross-validation says."""
     inputs, _ = inputs_of(ROAD, Scatter(moduli=0.15))
@@ -189,6 +252,7 @@ def test_too_few_draws_are_refused():
         ({"risks": ()}, "at least one risk"),
         ({"criteria": ["bse"]}, "did you mean 'base'"),
         ({"coverage": 0.0}, "coverage must lie in"),
+        ({"held_back": 1}, "held_back must be 0, for no error, or at least 2, got 1"),
         ({"scatter": Scatter(moduli={"EB-GB": 0.1})}, "did you mean 'EB-GB3'"),
         ({"scatter": Scatter(thickness={"PF3": 0.01})}, "semi-infinite"),
         ({"scatter": Scatter(thickness=0.08)}, "38 % of 210 mm"),

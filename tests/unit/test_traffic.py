@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from treadload.contact.maneuver import GRAVITY, Maneuver
 from treadload.damage.climate import Climate, Season
-from treadload.damage.traffic import AxleClass, Traffic, Wander
+from treadload.damage.traffic import GROWS, AxleClass, Traffic, Wander
 from treadload.errors import InputError
 
 TRUCK = AxleClass("truck", 1.0, 32.5e3, 820e3)
@@ -34,6 +34,27 @@ def test_years_to_inverts_passes(growth, kind, years):
     traffic = Traffic((TRUCK,), 1e5, growth=growth, kind=kind)
     # With arithmetic decline the passes stop growing after 1/|t| years: 20 stays below that.
     assert traffic.years_to(traffic.passes(years)) == pytest.approx(years, rel=1e-6)
+
+
+@pytest.mark.parametrize("kind", ["geometric", "arithmetic"])
+def test_traffic_grows_for_forty_years_and_stays_as_it_is_then(kind):
+    """The sum of the years: year k has (1 + t)^(k-1) or 1 + (k-1) t of the first up to the 40th, then as much."""
+    traffic = Traffic((TRUCK,), 1e5, growth=0.03, kind=kind)
+    years = np.arange(1, 101)
+    grown = np.minimum(years, GROWS) - 1
+    each = 1e5 * (1.03**grown if kind == "geometric" else 1 + 0.03 * grown)
+    assert traffic.passes(100) == pytest.approx(each.sum(), rel=1e-12)
+    assert traffic.passes(GROWS) == pytest.approx(each[:40].sum(), rel=1e-12)
+    for many in (30.0, 40.0, 40.5, 500.0):
+        assert traffic.years_to(traffic.passes(many)) == pytest.approx(many, rel=1e-9)
+
+
+def test_how_long_a_traffic_grows_is_that_of_its_design_life_or_given():
+    assert Traffic((TRUCK,), 1e5, growth=0.02, years=60).grows_for == 60
+    assert Traffic((TRUCK,), 1e5, growth=0.02, growth_years=15).grows_for == 15
+    assert Traffic((TRUCK,), 1e5, growth=-0.02).grows_for == math.inf
+    short = Traffic((TRUCK,), 1e5, growth=0.02, growth_years=15)
+    assert short.passes(16) - short.passes(15) == pytest.approx(1e5 * 1.02**14, rel=1e-12)
 
 
 def test_a_shrinking_traffic_never_makes_more_than_its_sum():
@@ -111,6 +132,10 @@ def test_forces_scale_with_the_load():
         (lambda: Traffic((TRUCK,), -1.0), "passes_per_year must be >= 0"),
         (lambda: Traffic((TRUCK,), 1e5, growth=-1.5), "growth must be above -1"),
         (lambda: Traffic((TRUCK,), 1e5).years_to(-1), "passes must be >= 0"),
+        (
+            lambda: Traffic((TRUCK,), 1e5, growth=0.02, growth_years=0.5),
+            "growth_years must be at least 1 year, got 0.5",
+        ),
         (lambda: AxleClass("a", 30, 1e4, 8e5), "30 % is 0.3"),
         (lambda: AxleClass("a", 1, 0.0, 8e5), "wheel_load"),
         (lambda: AxleClass("a", 1, 1e4, 8e5, wheels=()), "at least one wheel"),

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from treadload.damage.laws.conditions import BY_MODULUS, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, SURFACE_EXTENSION
 from treadload.errors import InputError, positive
@@ -32,6 +33,8 @@ class _Regression(PowerLaw):
     """N = k ε^(1/b) E^-m with E in psi."""
 
     modulus: Modulus
+
+    conditions: ClassVar[LoadingConditions] = BY_MODULUS
 
     def __post_init__(self) -> None:
         positive("modulus", self.modulus, "Pa", "asphalt is near 5.4e9")

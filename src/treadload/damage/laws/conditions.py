@@ -32,6 +32,22 @@ class LoadingConditions:
 
 
 UNSTATED = LoadingConditions()
+CATALOGUE = LoadingConditions(
+    frequency="25 Hz",
+    temperature="10 °C",
+    control="two-point bending of trapezoids at constant displacement, as NF EN 12697-24 describes it (from memory)",
+    rest="none, a continuous sine (the same)",
+)
+"""Tests behind ε₆ of the mixes of the catalogue.
+
+Frequency and temperature are those of the source of the numbers. The public summary of NF EN 12697-24 states the bending,
+its control and its sine; that it is the test behind ε₆ is from memory.
+"""
+BY_MODULUS = LoadingConditions(
+    frequency="none of its own: through E, the modulus at the frequency of the load",
+    temperature="none of its own: through E",
+)
+"""Laws with the modulus of the mix in them, which carries frequency and temperature."""
 
 
 def conditions_of(law: object) -> str:
@@ -40,4 +56,5 @@ def conditions_of(law: object) -> str:
     law: also of another package; its class may have `calibrated`, a text, and `conditions`, a `LoadingConditions`.
     """
     ties = getattr(law, "calibrated", "")
-    return "; ".join(filter(None, (ties, str(getattr(law, "conditions", UNSTATED)))))
+    conditions = getattr(law, "tested_under", None) or getattr(law, "conditions", UNSTATED)
+    return "; ".join(filter(None, (ties, str(conditions))))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import ClassVar, Protocol, overload
 
 import numpy as np
@@ -159,6 +159,8 @@ class FatigueLine(PowerLaw):
     epsilon_6: Strain
     slope: Number
     reads: Quantity = EXTENSION
+    tested_under: LoadingConditions | None = field(default=None, init=False, compare=False, repr=False)
+    """The tests behind its numbers where they are those of a mix of the catalogue, see `under`."""
 
     noun: ClassVar[str] = "fatigue line"
     symbol: ClassVar[str] = "ε₆"
@@ -173,6 +175,12 @@ class FatigueLine(PowerLaw):
                 f"epsilon_6 is a strain, but the line reads the {self.reads}; take PowerLine, in a case the law "
                 '"power-law", whose number has the unit of what it reads'
             )
+
+    def under(self, conditions: LoadingConditions) -> FatigueLine:
+        """The same line, with the tests behind its numbers."""
+        line = FatigueLine(self.epsilon_6, self.slope, self.reads)
+        object.__setattr__(line, "tested_under", conditions)
+        return line
 
     @property
     def at_a_million(self) -> float:

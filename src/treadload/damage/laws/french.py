@@ -7,12 +7,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, get_args
 
 from scipy.special import ndtri
 
-from treadload.damage.laws.conditions import LoadingConditions
+from treadload.damage.laws.conditions import CATALOGUE, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw, check_slope, check_strain
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.errors import InputError, positive
@@ -68,7 +68,8 @@ class FrenchBituminous(PowerLaw):
     source: ClassVar[str] = _SOURCE
     end_of_life: ClassVar[str] = _FAILS
     calibrated: ClassVar[str] = _BY_ROADS
-    conditions: ClassVar[LoadingConditions] = LoadingConditions(
+    conditions: ClassVar[LoadingConditions] = replace(
+        CATALOGUE,
         frequency="25 Hz for ε₆, 10 Hz for the moduli that take it to other temperatures",
         temperature="10 °C for ε₆",
     )

@@ -11,6 +11,7 @@ from typing import ClassVar, overload
 import numpy as np
 
 from treadload.damage.laws.american import check_volumes, mix_factor
+from treadload.damage.laws.conditions import BY_MODULUS, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, TENSION
 from treadload.damage.quantity import Quantity
@@ -49,6 +50,7 @@ class IrcFatigue(PowerLaw):
     source: ClassVar[str] = _IRC
     end_of_life: ClassVar[str] = "a fifth of the paved area is cracked by fatigue"
     calibrated: ClassVar[str] = _ROADS
+    conditions: ClassVar[LoadingConditions] = BY_MODULUS
     includes_wander: ClassVar[bool] = True
     includes_weather: ClassVar[bool] = True
 

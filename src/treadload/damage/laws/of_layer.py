@@ -10,7 +10,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal, TypedDict, Unpack, get_args
 
-from treadload.damage.laws.fatigue import FatigueLaw
+from treadload.damage.laws.conditions import CATALOGUE
+from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade, TrafficClass
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
@@ -126,7 +127,10 @@ def law_of_layer(
         if isinstance(material, Elastic):
             arguments["modulus"] = material.modulus
     at.needed(arguments, *needed)
-    return kind(**arguments)
+    law = kind(**arguments)
+    if isinstance(law, FatigueLine) and isinstance(material, Mix) and "epsilon_6" not in values:
+        return law.under(CATALOGUE)
+    return law
 
 
 class FrenchConstants(TypedDict, total=False):
