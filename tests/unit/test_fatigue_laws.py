@@ -131,7 +131,7 @@ def test_the_end_of_the_mepdg_is_that_of_its_sums_of_cracking():
 
 
 def test_damage_outside_of_a_range_is_stated_by_its_share():
-    """N = 10⁴ at 251 microstrain: 300 lies outside, and is the largest value though another season does the damage."""
+    """N = 10⁴ at 251 microstrain: 300 lies outside and is the largest, though another season does the damage."""
     line = FatigueLine(100e-6, -0.2)
     names = (["heavy", "light"], ["cold", "warm"])
     readings = np.array([[120e-6, 300e-6], [100e-6, 110e-6]])

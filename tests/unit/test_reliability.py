@@ -170,7 +170,7 @@ def test_the_error_of_the_years_is_stated_or_not_looked_for(life):
 
 
 def test_what_part_of_the_damage_does_otherwise_is_added_along_the_likeliest_line():
-    """A surface of the half that is solved, and a quadratic along the likeliest direction that the whole adds to it."""
+    """A surface of the half that is solved, and a quadratic along the likeliest direction that the whole adds."""
 
     class Whole(Direct):
         def logarithms(self, number, coverage, points):

@@ -40,8 +40,8 @@ CATALOGUE = LoadingConditions(
 )
 """Tests behind ε₆ of the mixes of the catalogue.
 
-Frequency and temperature are those of the source of the numbers. The public summary of NF EN 12697-24 states the bending,
-its control and its sine; that it is the test behind ε₆ is from memory.
+Frequency and temperature are those of the source of the numbers. The public summary of NF EN 12697-24 states the
+bending, its control and its sine; that it is the test behind ε₆ is from memory.
 """
 BY_MODULUS = LoadingConditions(
     frequency="none of its own: through E, the modulus at the frequency of the load",

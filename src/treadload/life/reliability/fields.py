@@ -127,8 +127,8 @@ def _in_years(traffic: Traffic, logarithms: Array) -> Array:
 
 def _years_error(traffic: Traffic, logarithms: Array, missed: Array) -> Array:
     """Part of the years by which they change at most as ln D does by what it may have missed; NaN without."""
-    years = _in_years(traffic, logarithms)
-    ends = np.stack([_in_years(traffic, logarithms - missed), _in_years(traffic, logarithms + missed)])
+    years, off = _in_years(traffic, logarithms), np.nan_to_num(missed)
+    ends = np.stack([_in_years(traffic, logarithms - off), _in_years(traffic, logarithms + off)])
     with np.errstate(invalid="ignore"):
         error: Array = np.abs(ends / years - 1).max(axis=0)
     return np.where(np.isfinite(missed) & np.isfinite(years), error, np.nan)
