@@ -648,6 +648,8 @@ _DISPLAYS_LIFE = {
     "reach_chance": Display("roads cracked through in the design life", "%", ".0f"),
     "years_at_risk": Display("service life, by draws", "", years_in_words),
     "years_at_risk_first_order": Display("service life, first order", "", years_in_words),
+    "years_error": Display("error of these years"),
+    "road_years_error": Display("error of the years of the first"),
     "road_years_at_risk": Display("first criterion to fail", "", years_in_words),
     "road_failure_probability": Display("failure probability in the design life", "%", ".2g"),
     "thickness_slope": Display("decades of strain per cm of thickness", "", lambda slope: f"{slope / 100:.3g}"),

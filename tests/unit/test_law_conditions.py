@@ -31,6 +31,7 @@ def test_a_line_of_a_mix_is_tested_as_its_mix_and_given_numbers_are_not():
     at = OnLayer("top", Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3"), 0)
     of_mix = law_of_layer(FatigueLine, at, {}, ("epsilon_6", "slope"))
     assert "temperature: 10 °C" in conditions_of(of_mix)
+    assert conditions_of(of_mix).startswith("by tests of the layer's mix, without a shift")
     assert of_mix == FatigueLine(of_mix.epsilon_6, of_mix.slope)
     of_user = law_of_layer(FatigueLine, at, {"epsilon_6": 1e-4, "slope": -0.2}, ("epsilon_6", "slope"))
     assert "temperature" in conditions_of(of_user).rpartition(";")[2]

@@ -158,15 +158,16 @@ def test_years_at_a_risk_are_those_of_direct_solves_within_their_error():
 def test_the_error_of_the_years_is_stated_or_not_looked_for(life):
     asked = {"criteria": ["base"], "scatter": Scatter(thickness=0.01), "risks": (0.05, 0.5)}
     found, without = reliability(life, **asked), reliability(life, **asked, held_back=0)
-    first = next(row for row in found.rows() if row.key == "years_at_risk")
-    assert first.note == f"± {100 * float(found.dataset['years_error'][0, 0]):.2g} % by its error"
+    (row,) = [row for row in found.rows() if row.key == "years_error"]
+    low, middle = 100 * found.dataset["years_error"].to_numpy()[0]
+    assert row.text == f"± {low:.1f} % at 5 %, {middle:.1f} % at 50 %"
     assert found.stats["held_back"] == 8
     # Of 10⁵ draws the quantile of 5 % of ln D has twice a standard error of 1.5 % of its deviation.
     assert 0.005 < float(found.dataset["years_error"][0, 0]) < 0.05
     assert np.isnan(without.dataset["years_error"]).all()
     assert without.stats["held_back"] == 0
     assert without.years(0.05, "base") == found.years(0.05, "base")
-    assert next(row for row in without.rows() if row.key == "years_at_risk").note == ""
+    assert not [row for row in without.rows() if row.key == "years_error"]
 
 
 def test_what_part_of_the_damage_does_otherwise_is_added_along_the_likeliest_line():

@@ -55,6 +55,7 @@ def conditions_of(law: object) -> str:
 
     law: also of another package; its class may have `calibrated`, a text, and `conditions`, a `LoadingConditions`.
     """
-    ties = getattr(law, "calibrated", "")
-    conditions = getattr(law, "tested_under", None) or getattr(law, "conditions", UNSTATED)
+    tests = getattr(law, "tested_under", None)
+    ties = "by tests of the layer's mix, without a shift to the road" if tests else getattr(law, "calibrated", "")
+    conditions = tests or getattr(law, "conditions", UNSTATED)
     return "; ".join(filter(None, (ties, str(conditions))))

@@ -17,8 +17,9 @@ from treadload.life.reliability.inputs import Input, asked_at
 from treadload.life.reliability.propagation import Quadratic, first_order
 from treadload.life.variants import Solver, most
 
-# Share of the damage whose classes and seasons are solved where a surface is checked: what is left moves no digit.
-WHOLE = 0.99
+# Share of the damage whose classes and seasons are solved where a surface is checked: what is left moves the years by
+# less than the draws do.
+WHOLE = 0.95
 # Risk whose likeliest point, and its opposite, correct a surface: the outermost risks are asked for near it.
 _OUTER = 0.05
 # Draws among which those at a quantile are looked for, and the part of them that counts as being there.

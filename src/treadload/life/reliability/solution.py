@@ -89,8 +89,9 @@ class Reliability(BaseResult, group="reliability"):
         rows: list[Row] = []
         for k, name in enumerate(map(str, data["criterion"].to_numpy())):
             at = data.isel(criterion=k)
-            rows += _at_risks(at, risks, "years_at_risk", "years_error", name)
-            rows += _at_risks(at, risks, "years_at_risk_first_order", "", name)
+            rows += _at_risks(at, risks, "years_at_risk", name)
+            rows += _errors(at, "years_error", name)
+            rows += _at_risks(at, risks, "years_at_risk_first_order", name)
             rows.append(row("end_of_life", str(ends[k]), group=name))
             rows.append(row("importance", _shares(at, deviations), group=name))
             if math.isfinite(float(at["thickness_slope"])):
@@ -101,7 +102,8 @@ class Reliability(BaseResult, group="reliability"):
                 rows.append(row("law_risk_factor", at["law_risk_factor"], note=risk, group=name))
                 rows.append(row("law_years", at["law_years"], note=risk, group=name))
         if data.sizes["criterion"] > 1:
-            rows += _at_risks(data, risks, "road_years_at_risk", "road_years_error", "")
+            rows += _at_risks(data, risks, "road_years_at_risk", "")
+            rows += _errors(data, "road_years_error", "")
         if self.stats:
             solved = (
                 "{responses} responses and {contacts} contacts; {points} points for each criterion, {draws} draws; "
@@ -121,14 +123,27 @@ class Reliability(BaseResult, group="reliability"):
         return tuple(rows)
 
 
-def _at_risks(at: xr.Dataset, risks: list[str], years: str, error: str, group: str) -> list[Row]:
-    """Years at the risks, by the name of their variable, with their error where there is one. error: name or ""."""
-    rows = []
-    for k, risk in enumerate(risks):
-        share = float(at[error][k]) if error else math.nan
-        note = "" if math.isnan(share) else f"± {max(100 * share, 0.1):.2g} % by its error"
-        rows.append(row(years, at[years][k], label=f"{display_of(years).label} {risk}", group=group, note=note))
-    return rows
+def _at_risks(at: xr.Dataset, risks: list[str], years: str, group: str) -> list[Row]:
+    """Years at the risks, by the name of their variable."""
+    label = display_of(years).label
+    return [
+        row(years, value, label=f"{label} {risk}", group=group) for risk, value in zip(risks, at[years], strict=True)
+    ]
+
+
+def _errors(at: xr.Dataset, error: str, group: str) -> list[Row]:
+    """What years at the risks may err by, in a line; none where that was not looked for."""
+    texts = [
+        f"{_share(float(share))} at {100 * float(risk):g} %"
+        for risk, share in zip(at["risk"], at[error], strict=True)
+        if not math.isnan(float(share))
+    ]
+    return [row(error, f"± {', '.join(texts)}", group=group)] if texts else []
+
+
+def _share(part: float) -> str:
+    percent = 100 * part
+    return f"{percent:.0f} %" if percent >= 10 else f"{max(percent, 0.1):.1f} %"
 
 
 def _percent(probability: float) -> str:

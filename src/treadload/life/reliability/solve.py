@@ -7,6 +7,7 @@ import time
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+import xarray as xr
 
 from treadload import variables
 from treadload.damage.criterion import Criterion
@@ -30,6 +31,8 @@ from treadload.pavement import Pavement
 _SAMPLING = MonteCarlo()
 # An error of the surface, relative in strain, above which it is worth a sentence.
 _DOUBTFUL = 0.03
+# An error of the years that is worth a sentence.
+_LOOSE = 0.1
 # Of fewer direct solves no error of their mean follows.
 FEWEST_HELD = 2
 
@@ -106,6 +109,7 @@ def life_reliability(
         for k, error in zip(chosen, errors, strict=True)
         if error > _DOUBTFUL
     )
+    caveats += _loose(dataset)
     if math.isfinite(life.rut_years):
         caveats += (
             f"the rut, which is at its limit after {life.rut_years:.3g} years, is not among what is drawn: neither "
@@ -127,6 +131,20 @@ def life_reliability(
         "seconds": time.perf_counter() - start,
     }
     return Reliability(dataset, scatter, stats, tuple(dict.fromkeys(caveats)))
+
+
+def _loose(dataset: xr.Dataset) -> tuple[str, ...]:
+    """Sentences on criteria whose years err by much at some risk."""
+    caveats = []
+    for name, errors in zip(dataset["criterion"].to_numpy(), dataset["years_error"].to_numpy(), strict=True):
+        worst = int(np.nan_to_num(errors).argmax())
+        if errors[worst] > _LOOSE:
+            caveats.append(
+                f"{name}: its years at a risk of {100 * float(dataset['risk'][worst]):g} % may err by "
+                f"{100 * errors[worst]:.0f} %, by direct solves held back: other classes, seasons or places than "
+                "those that were solved again do the damage there; a larger coverage or a smaller scatter makes it less"
+            )
+    return tuple(caveats)
 
 
 def _weather_share(life: Life, number: int) -> float:
