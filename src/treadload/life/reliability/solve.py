@@ -142,7 +142,7 @@ def _loose(dataset: xr.Dataset) -> tuple[str, ...]:
             caveats.append(
                 f"{name}: its years at a risk of {100 * float(dataset['risk'][worst]):g} % may err by "
                 f"{100 * errors[worst]:.0f} %, by direct solves held back: other classes, seasons or places than "
-                "those that were solved again do the damage there; a larger coverage or a smaller scatter makes it less"
+                "those that were solved again do the damage there; a larger coverage or less scatter makes it less"
             )
     return tuple(caveats)
 
