@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import textwrap
+from collections.abc import Callable
 
 import numpy as np
 from matplotlib.artist import Artist
@@ -26,12 +27,15 @@ _LETTERS, _MOST = 34, 24
 _FAR = 8.0
 # Years beyond which a bar ends.
 _LONG = 1000.0
+# Times as long at most as a bar shows of criteria that last longer than that.
+_MOST_TIMES = 100.0
 
 
 @figure(
     "Remedies", name="tornado", main=True, title="What would help", wide=True,
     caption="Years of the road, and by every criterion, after each change by one step; bars begin at the years of "
-    "the road as it is. Each was solved anew.",
+    "the road as it is. Each was solved anew. A criterion that lasts more than 1000 years is drawn by how many times "
+    "as long it lasts.",
 )  # fmt: skip
 @styled
 def remedy_tornado(remedies: Source) -> Figure:
@@ -48,27 +52,30 @@ def remedy_tornado(remedies: Source) -> Figure:
         data = data.isel(remedy=[*range(_MOST // 2), *range(count - _MOST // 2, count)])
     names = [textwrap.fill(plain(str(name)), _LETTERS) for name in data["remedy"].to_numpy()]
     criteria = [str(name) for name in data["criterion"].to_numpy()]
-    before = np.minimum(data["life_years"].to_numpy(), _LONG)
-    after = np.minimum(data["remedy_years"].to_numpy(), _LONG)
-    panels = [("Road", float(before.min()), np.minimum(data["road_years"].to_numpy(), _LONG))]
+    before, after = data["life_years"].to_numpy(), data["remedy_years"].to_numpy()
+    panels = [("Road", float(before.min()), data["road_years"].to_numpy())]
     if len(criteria) > 1:
         panels += [(name, float(before[k]), after[:, k]) for k, name in enumerate(criteria)]
     figure = new_figure(3.2 + 1.9 * len(panels), 1.7 + 0.27 * len(names))
     axes = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
     rows = np.arange(float(len(names)))[::-1]
     for ax, (title, start, ends) in zip(axes, panels, strict=True):
-        _panel(ax, rows, start, ends)
+        far = start > _LONG
+        if far:
+            _panel(ax, rows, 1.0, _times(ends, start), _factor)
+        else:
+            _panel(ax, rows, start, np.minimum(ends, _LONG), _number)
+        ax.set_xlabel("times as long" if far else "service life (years)")
         headline(ax, textwrap.fill(title, 20), _years(start))
     axes[0].set_yticks(rows, names)
     axes[0].set_ylim(-0.6, len(names) - 0.4)
-    for ax in axes:
-        ax.set_xlabel("service life (years)")
     handles: list[Artist] = [Patch(color=_LONGER, label="longer"), Patch(color=_SHORTER, label="shorter")]
     legend_below(axes[0], handles, columns=2)
     return figure
 
 
-def _panel(ax: Axes, rows: Array, start: float, ends: Array) -> None:
+def _panel(ax: Axes, rows: Array, start: float, ends: Array, words: Callable[[float], str]) -> None:
+    """Bars from a start to their ends. words: of the number at an end."""
     low, high = min(float(ends.min()), start), max(float(ends.max()), start)
     log = high > _FAR * low > 0
     ax.barh(
@@ -89,12 +96,24 @@ def _panel(ax: Axes, rows: Array, start: float, ends: Array) -> None:
             continue
         side = 1 if end >= start else -1
         ax.annotate(
-            _number(end), (end, row), xytext=(3 * side, 0), textcoords="offset points", va="center",
+            words(end), (end, row), xytext=(3 * side, 0), textcoords="offset points", va="center",
             ha="left" if side > 0 else "right", fontsize=7.5,
         )  # fmt: skip
     ax.tick_params(axis="y", length=0)
     ax.spines[["top", "right", "left"]].set_visible(False)
     ax.grid(True, axis="x")
+
+
+def _times(years: Array, start: float) -> Array:
+    """Years over those at the start, at most `_MOST_TIMES` or one over it; 1 where neither ends."""
+    with np.errstate(invalid="ignore"):
+        factor = np.nan_to_num(years / start, nan=1.0, posinf=_MOST_TIMES)
+    return np.clip(factor, 1 / _MOST_TIMES, _MOST_TIMES)
+
+
+def _factor(times: float) -> str:
+    bound = "> " if times >= _MOST_TIMES else "< " if times <= 1 / _MOST_TIMES else ""
+    return f"{bound}× {measure(times)}"
 
 
 def _number(years: float) -> str:
