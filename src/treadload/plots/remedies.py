@@ -107,8 +107,8 @@ def _panel(ax: Axes, rows: Array, start: float, ends: Array, words: Callable[[fl
 def _times(years: Array, start: float) -> Array:
     """Years over those at the start, at most `_MOST_TIMES` or one over it; 1 where neither ends."""
     with np.errstate(invalid="ignore"):
-        factor = np.nan_to_num(years / start, nan=1.0, posinf=_MOST_TIMES)
-    return np.clip(factor, 1 / _MOST_TIMES, _MOST_TIMES)
+        factor: Array = np.nan_to_num(years / start, nan=1.0, posinf=_MOST_TIMES)
+    return factor.clip(1 / _MOST_TIMES, _MOST_TIMES)
 
 
 def _factor(times: float) -> str:
