@@ -35,7 +35,8 @@ def surface_line_fields(
     for k, criterion in enumerate(design.criteria):
         lines = surface_lines(design.road, criterion)
         for row, line in enumerate(lines):
-            years[row, k] = years_by(line, design, readings[k], y, None if weather is None else weather.readings[k])
+            daily = None if weather is None else weather.readings[k]
+            years[row, k] = years_until(design.traffic, *yearly_by(line, design, readings[k], y, daily))
         if lines:
             stated[criterion.name] = [str(line) for line in lines]
     if not stated:
@@ -57,11 +58,16 @@ def surface_lines(road: Pavement, criterion: Criterion) -> tuple[FatigueLaw, ...
     return FatigueLine(epsilon_6, FRESH_SLOPE, quantity), AgedLine(epsilon_6, FRESH_SLOPE, 1.0, quantity)
 
 
-def years_by(line: FatigueLaw, design: Design, readings: Array, y: Array, daily: Array | None) -> float:
-    """Years until Miner's sum by a line is 1. readings: (axle_class, season, turn, y). daily: of months, or None."""
+def yearly_by(
+    line: FatigueLaw, design: Design, readings: Array, y: Array, daily: Array | None
+) -> tuple[float, float]:
+    """Damage of the first year by a line: of the traffic at the worst place after wander, and of the days.
+
+    readings: (axle_class, season, turn, y). daily: of the months, what the law reads; None for no such stress.
+    """
     traffic, climate = design.traffic, design.climate
     laws = [[line] * len(climate.seasons)] * len(traffic.classes)
     damage = damage_of(readings[None], [laws], traffic, climate)[0].sum(axis=(0, 1))
     worst = float(traffic.wander.spread(damage, float(y[1] - y[0])).max())
     days = 0.0 if daily is None else float((np.array(DAYS) / np.asarray(line.allowable_passes(daily))).sum())
-    return years_until(traffic, worst, days)
+    return worst, days

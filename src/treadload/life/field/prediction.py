@@ -11,6 +11,9 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.field.table import SectionTable
 
+HARDENING = "hardening of the fatigue line"
+"""What the mechanics leave open at the surface: 0 is the line of a young mix, 1 that of old cores."""
+
 
 @dataclass(frozen=True, eq=False)
 class Predictions:
@@ -18,6 +21,7 @@ class Predictions:
 
     sections: names (n,). surface, bottom: ages at the surface and at the bottom of the asphalt (n,), years; inf where
     no damage is done. parts: further numbers of each section by name (n,), such as the share of thermal stress.
+    variants: ages at the surface by what the mechanics leave open, such as the hardening of the line, and its values.
     about: sentences on how they were predicted.
     """
 
@@ -25,6 +29,7 @@ class Predictions:
     surface: Array
     bottom: Array
     parts: Mapping[str, Array] = field(default_factory=dict)
+    variants: Mapping[str, Mapping[float, Array]] = field(default_factory=dict)
     about: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -48,6 +53,10 @@ class Predictions:
             )
         rows = np.array([places[name] for name in table.sections])
         parts = {name: np.asarray(values)[rows] for name, values in self.parts.items()}
+        variants = {
+            name: {value: np.asarray(ages)[rows] for value, ages in by_value.items()}
+            for name, by_value in self.variants.items()
+        }
         return Predictions(
-            table.sections, np.asarray(self.surface)[rows], np.asarray(self.bottom)[rows], parts, self.about
+            table.sections, np.asarray(self.surface)[rows], np.asarray(self.bottom)[rows], parts, variants, self.about
         )
