@@ -36,6 +36,7 @@ LEAVES = (
     "named",
     "read",
     "metrology",
+    "identifiability",
     "_public",
     "_version",
 )
@@ -48,7 +49,7 @@ ORDER = (
     ("contact",),
     ("response",),
     ("damage",),
-    ("footprint",),
+    ("footprint", "roads"),
     ("case",),
     ("results",),
     ("life", "calibration"),

@@ -14,6 +14,7 @@ from treadload import pavement as pavement
 from treadload import plots as plots
 from treadload import response as response
 from treadload import results as results
+from treadload import roads as roads
 from treadload import steps as steps
 from treadload import sweeps as sweeps
 from treadload import tire as tire
@@ -40,6 +41,7 @@ from treadload.response import UniformRectangle as UniformRectangle
 from treadload.response import solve_response as solve_response
 from treadload.results import open_results as open_results
 from treadload.results import save_results as save_results
+from treadload.roads import backcalculate as backcalculate
 from treadload.steps import plan as plan
 from treadload.steps import run as run
 from treadload.sweeps import sweep as sweep

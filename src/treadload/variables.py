@@ -324,6 +324,32 @@ _CALIBRATION = {
     "reading_slope": ("1", "change of a reading over its error, per relative change of a number"),
 }
 
+_BASINS = {
+    "sensor": ("m", "distance of a deflection sensor from the axis of the loading plate"),
+    "plate_load": ("N", "peak load of a drop on the loading plate"),
+    "measured_deflection": ("m", "peak deflection that a sensor measured, down"),
+    "fitted_deflection": ("m", "deflection of the fitted layers, down"),
+    "fitted_modulus": ("Pa", "Young's modulus of a layer that fits the deflections, or that was fixed"),
+    "modulus_low": ("Pa", "lower end of the 90 % interval of a fitted modulus"),
+    "modulus_high": ("Pa", "upper end of the 90 % interval of a fitted modulus"),
+    "modulus_deviation": (
+        "1",
+        "standard deviation of ln E of a fitted modulus; NaN if fixed, at a bound or not felt",
+    ),
+    "modulus_at_reference": ("Pa", "fitted modulus at the reference temperature, by the mix of the layer"),
+    "layer_thickness": ("m", "thickness of a layer, infinite for a half-space, 0 where it is absent"),
+    "unknown_at_bound": ("1", "-1 at the lower bound, 1 at the upper one, else 0"),
+    "unknown_correlation": ("1", "correlation of the logarithms of two unknowns"),
+    "basin_misfit": ("1", "root mean square of fitted less measured deflections, over the measured ones"),
+    "error_scatter": ("1", "size of the sensors' errors over what was taken"),
+    "basin_freedom": ("1", "readings of a basin less the unknowns that they decide"),
+    "basin_status": ("1", "0 fitted, 1 flagged, 2 refused"),
+    "drop_position": ("m", "place of a drop along the road"),
+    "asphalt_temperature": ("degC", "temperature of the asphalt under a drop"),
+    "stiff_depth": ("m", "depth of the stiff layer below the surface; NaN on a half-space"),
+    "stiff_depth_deviation": ("m", "standard deviation of the depth of the stiff layer, where it is sought"),
+}
+
 _LIFE = {
     "damage_per_year": ("1", "Miner's damage of the first year, with wander where it applies; 1 is failure"),
     "damage_share": ("1", "share of the damage at the worst place"),
@@ -551,6 +577,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_DAMAGE,
     **_QUANTITIES,
     **_CALIBRATION,
+    **_BASINS,
     **_LIFE,
     **_CLIMATE,
     **_RELIABILITY,
@@ -591,6 +618,12 @@ class Display:
 
 
 _STRESS = stress_in_words
+
+
+def modulus_in_words(modulus: float) -> str:
+    """A modulus, Pa, in MPa with the digits that a measured one deserves."""
+    return f"{modulus * 1e-6:.0f} MPa" if modulus >= 1e8 else f"{modulus * 1e-6:.3g} MPa"
+
 
 # Rows of text have a label alone.
 _DISPLAYS_DAMAGE = {
@@ -717,6 +750,13 @@ _DISPLAYS_STUDIES = {
     "reading_error": Display("errors of the readings"),
     "number_correlation": Display("correlation", "", "+.2f"),
     "undecided": Display("undecided"),
+    "basin_status": Display("basins"),
+    "fitted_modulus": Display("modulus", "", modulus_in_words),
+    "basin_misfit": Display("misfit, median of the rms", "%", ".2g"),
+    "sensor_error": Display("error of the sensors"),
+    "stiff_depth": Display("stiff layer"),
+    "flagged": Display("flagged"),
+    "refused": Display("refused"),
     "skipped": Display("not changed"),
     "varied": Display("varied"),
     "results": Display("further results"),
@@ -907,9 +947,11 @@ SAMPLE: Mapping[str, Display] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
+    "basin", "layer_name",
     "trial", "remedy", "state", "criterion", "axle_class", "season", "month", "hour", "turn", "direction", "reading",
     "unknown", "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",
-    "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position", "pass",
+    "sensor", "mode", "other", "load", "map", "inflation_pressure", "wheel_load", "rib", "groove", "step", "position",
+    "pass",
     "interface", "depth", "profile_depth", "sublayer", "point", "row", "column", "y", "across", "wheel_angle", "x",
     "road_x", "component", "orientation",
 )  # fmt: skip

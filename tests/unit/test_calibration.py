@@ -10,11 +10,11 @@ import treadload as tl
 from treadload.calibration.extents import covered, extents
 from treadload.calibration.fit import STEEL, calibrate
 from treadload.calibration.problem import Model, Problem
-from treadload.calibration.solution import _undecided
 from treadload.case import Case
 from treadload.case.first import first_case
 from treadload.footprint import Measured, Unknown
 from treadload.grid import Grid
+from treadload.identifiability import undecided_in_words
 from treadload.steps import run
 from treadload.tire.numbers import NUMBERS
 
@@ -190,16 +190,16 @@ def test_what_the_data_cannot_tell_is_said(exact):
 
 def test_directions_in_words():
     turned = np.array([[0.8, -0.6], [0.6, 0.8]])
-    said = _undecided(["modulus", "bending_along"], np.array([100.0, 0.5]), turned, 1.0)
+    said = undecided_in_words(["modulus", "bending_along"], np.array([100.0, 0.5]), turned, 1.0)
     assert said == [
         "these data leave bending_along and modulus undecided: changing bending_along by +160 %, modulus by +120 % "
         "moves the readings by no more than their errors"
     ]
-    assert _undecided(["arm"], np.array([1.0]), np.eye(1), 1.0) == [
+    assert undecided_in_words(["arm"], np.array([1.0]), np.eye(1), 1.0) == [
         "these data leave arm undecided: its standard deviation is 100 % of it"
     ]
-    assert "no reading feels it" in _undecided(["arm"], np.array([0.0]), np.eye(1), 1.0)[0]
-    assert not _undecided(["arm"], np.array([2.1]), np.eye(1), 1.0)
+    assert "no reading feels it" in undecided_in_words(["arm"], np.array([0.0]), np.eye(1), 1.0)[0]
+    assert not undecided_in_words(["arm"], np.array([2.1]), np.eye(1), 1.0)
 
 
 def test_a_fit_at_its_bound_and_data_at_odds_are_told(exact):

@@ -241,6 +241,14 @@ def calibration():
     return tl.calibrate(TIRE, ["modulus"], rows, road=ROAD, tolerance=1e-6)
 
 
+def backcalculated():
+    bowl = np.array([[6.0e-4, 4.1e-4, 3.3e-4, 1.9e-4, 1.2e-4], [6.2e-4, 4.0e-4, 3.4e-4, 1.8e-4, 1.3e-4]])
+    basins = tl.roads.Basins(
+        bowl, np.array([0, 0.2, 0.3, 0.6, 0.9]), 5e4, 0.15, temperature=15.0, position=[0.0, 10.0]
+    )
+    return tl.backcalculate(basins, ROAD)
+
+
 def dented():
     across = (np.arange(12) - 5.5) * 1e-3
     ball = tl.Tire.from_height_map(
@@ -335,6 +343,7 @@ MADE = {
     "FootprintComparison": footprint_comparison,
     "TireCard": lambda: tl.footprint.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
     "Calibration": calibration,
+    "Backcalculation": backcalculated,
     "Sweep": lambda: study_of(product(CASE, {"friction": [0.4, 0.6]}), lambda friction: {"worst_strain": friction}),
     "Tornado": lambda: screened(tl.sweeps.screening.tornado),
     "Sobol": lambda: screened(tl.sweeps.screening.sobol, blocks=4, second_order=True),
@@ -355,6 +364,7 @@ FIGURES = {
     "Remedies": "tornado",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
+    "Backcalculation": "basins",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "TextureContact": "patch", "Enveloped": "pressure",
     "Crossing": "history", "Wear": "wear", "PitchPassage": "history", "PitchResponse": "strains",

@@ -17,7 +17,7 @@ CLONE = Path(__file__).parents[2]
 STUB = (ROOT / "__init__.pyi").read_text(encoding="utf-8")
 ROOMS = (
     *("catalogue", "contact", "damage", "footprint", "life", "materials", "pavement"),
-    *("plots", "response", "results", "steps", "sweeps", "tire"),
+    *("plots", "response", "results", "roads", "steps", "sweeps", "tire"),
 )
 
 
@@ -31,10 +31,11 @@ def test_the_stub_states_every_public_name_once():
     assert not [name for name in stated if re.search(rf"\b{name}\b", own.rpartition('"""')[2])]
 
 
-def test_at_most_forty_names_rooms_included():
+def test_at_most_forty_two_names_rooms_included():
+    # Forty, and since roads are measured the verb of that and its room.
     rooms = [name for name in dir(tl) if isinstance(getattr(tl, name), ModuleType)]
     assert rooms == list(ROOMS)
-    assert len([name for name in dir(tl) if not name.startswith("_")]) <= 40
+    assert len([name for name in dir(tl) if not name.startswith("_")]) <= 42
     # What a completion shows is the user's, not the machinery's.
     assert not {"Any", "importlib", "annotations", "TYPE_CHECKING"} & set(dir(tl))
 

@@ -17,6 +17,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.errors import InputError, nearest
 from treadload.footprint import FootprintComparison, compare
 from treadload.footprint.measured import READINGS, Measured, Unknown
+from treadload.identifiability import UNDECIDED, spread, undecided_in_words
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
@@ -25,10 +26,8 @@ from treadload.tire import Tire
 from treadload.units import Unit
 from treadload.variables import Display, display_of
 
-# Data that leave a number, or numbers together, uncertain by half of their size do not decide them.
-_UNDECIDED = 0.5
-# Part in a direction above which a number belongs to it; correlations above which a pair is named.
-_BELONGS, _CORRELATED = 0.3, 0.9
+# Correlations above which a pair is named.
+_CORRELATED = 0.9
 # Data contradict the model, or each other, where scatter as large would come by chance less often than this.
 _CHANCE = 0.01
 _SHOWN = {
@@ -198,11 +197,12 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, Any]) -> 
     square = float(residual @ residual)
     errors_stated = bool(search_result.stated.all())
     scatter = 1.0 if errors_stated else math.sqrt(square / left) if left > 0 else math.nan
-    values, directions, deviations, correlation = _spread(slopes, free, scatter)
+    spread_of_fit = spread(slopes, free, scatter)
+    values, directions = spread_of_fit.values, spread_of_fit.directions
     taken = scatter if math.isfinite(scatter) else 1.0
-    undecided = _undecided(names, values, directions, taken)
+    undecided = undecided_in_words(names, values, directions, taken)
     # Numbers at a bound, one by one: some are pushed there, others have drifted.
-    lost = ~free & (np.linalg.norm(slopes, axis=0) * _UNDECIDED < taken)
+    lost = ~free & (np.linalg.norm(slopes, axis=0) * UNDECIDED < taken)
     undecided += [f"these data leave {name} undecided: it drifted to its bound" for name in np.array(names)[lost]]
     labels = [_label(problem, *reading) for reading in problem.readings]
     rows = [problem.data[row] for row, _, _ in problem.readings]
@@ -214,11 +214,11 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, Any]) -> 
         {
             "start_value": (over, search_result.start),
             "fitted_value": (over, search_result.values),
-            "standard_deviation": (over, deviations * size),
+            "standard_deviation": (over, spread_of_fit.deviations * size),
             "lower_bound": (over, search_result.low),
             "upper_bound": (over, search_result.high),
             "at_bound": (over, search_result.at_bound),
-            "number_correlation": (("unknown", "other"), correlation),
+            "number_correlation": (("unknown", "other"), spread_of_fit.correlation),
             "singular_value": (("direction",), values),
             "direction_part": (("direction", "unknown"), directions),
             "measured_reading": (read, search_result.measured),
@@ -252,57 +252,6 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, Any]) -> 
         dataset, tire, friction, problem.road, problem.sought, problem.data, problem.tire, comparisons, dict(stats),
         tuple(warnings),
     )  # fmt: skip
-
-
-def _spread(slopes: Array, free: BoolArray, scatter: float) -> tuple[Array, Array, Array, Array]:
-    """Singular values and directions of the slopes, relative deviations, correlations. Numbers at bounds are held."""
-    count = slopes.shape[1]
-    values, directions = np.zeros(0), np.zeros((0, count))
-    deviations = np.full(count, math.nan)
-    correlation = np.full((count, count), math.nan)
-    if free.any():
-        _, values, right = np.linalg.svd(slopes[:, free], full_matrices=False)
-        directions = np.zeros((len(values), count))
-        directions[:, free] = right
-        # What the slopes cannot tell from nothing is not told: below round-off of the largest.
-        sure = values > 1e-10 * values[0]
-        inverse = np.where(sure, 1 / np.where(sure, values, 1.0), math.inf)
-        covariance = np.full((count, count), math.nan)
-        with np.errstate(invalid="ignore"):
-            parts = np.where(right == 0, 0.0, right * inverse[:, None])
-            covariance[np.ix_(free, free)] = parts.T @ parts
-            deviations = scatter * np.sqrt(np.diag(covariance))
-            sigma = np.sqrt(np.diag(covariance))
-            correlation = covariance / np.outer(sigma, sigma)
-    deviations = np.where(np.isfinite(deviations), deviations, math.nan)
-    return values, directions, deviations, correlation
-
-
-def _undecided(names: list[str], values: Array, directions: Array, scatter: float) -> list[str]:
-    """A sentence for each direction that the data leave uncertain by half of the numbers' size."""
-    caveats = []
-    for value, parts in zip(values, directions, strict=True):
-        reach = scatter / value if value > 0 else math.inf
-        if reach <= _UNDECIDED:
-            continue
-        # The largest first, and going up.
-        order = [k for k in np.argsort(-np.abs(parts)) if abs(parts[k]) >= _BELONGS]
-        sign = 1.0 if parts[order[0]] > 0 else -1.0
-        sought = " and ".join(names[k] for k in order) if len(order) < 3 else ", ".join(names[k] for k in order)
-        if not reach < 10:
-            what = "it" if len(order) == 1 else "their change together"
-            caveats.append(f"these data leave {sought} undecided: no reading feels {what}")
-        elif len(order) == 1:
-            caveats.append(
-                f"these data leave {sought} undecided: its standard deviation is {100 * reach:.0f} % of it"
-            )
-        else:
-            changes = ", ".join(f"{names[k]} by {100 * sign * parts[k] * reach:+.0f} %" for k in order)
-            caveats.append(
-                f"these data leave {sought} undecided: changing {changes} moves the readings by no more than "
-                "their errors"
-            )
-    return caveats
 
 
 def _doubts(

@@ -8,6 +8,7 @@ import typer
 
 from treadload._version import __version__
 from treadload.cli import (
+    backcalculate,
     cases,
     compare,
     design,
@@ -34,6 +35,7 @@ for _command in (
     design.design,
     sweep.sweep,
     cases.calibrate,
+    backcalculate.backcalculate,
     cases.init,
     cases.schema,
     results.report,

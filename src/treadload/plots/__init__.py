@@ -1,6 +1,7 @@
 """Figures of contact, response and verdict: functions of datasets that return a matplotlib Figure."""
 
 from treadload.plots import interactive as interactive
+from treadload.plots.backcalculation import fitted_basins, moduli_along
 from treadload.plots.bowl import deflection_bowl
 from treadload.plots.calibration import calibration_fit, calibration_numbers
 from treadload.plots.climate import day_temperatures, season_moduli
@@ -77,6 +78,7 @@ __all__ = [
     "enveloped_pressure",
     "fatigue_line",
     "first_places",
+    "fitted_basins",
     "fringe_scan",
     "height_map",
     "indentation",
@@ -88,6 +90,7 @@ __all__ = [
     "life_years",
     "losses",
     "master_curve",
+    "moduli_along",
     "morris_effects",
     "new_figure",
     "orientation_shares",

@@ -30,6 +30,7 @@ from treadload.steps.calibration import CalibrationStep
 # isort: on
 from treadload.case import Case
 from treadload.case.step import Source, Step
+from treadload.steps.backcalculation import StructureFile
 from treadload.steps.chain import Result, plan, run
 from treadload.steps.design import design_case, design_of
 from treadload.steps.outline import Outline
@@ -42,7 +43,9 @@ __all__ = [
     "AggregatesStep", "BowlStep", "CalibrationStep", "ContactStep", "CrossingStep", "DamageStep", "DrumStep",
     "EnvelopingStep", "EquivalentsStep", "FootprintStep", "GrowthStep", "IndentationStep", "LifeStep", "Options",
     "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "RemediesStep", "ResponseStep", "Result",
-    "RuttingStep", "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "TextureStep", "UniformStep",
+    "RuttingStep", "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "StructureFile",
+    "TextureStep",
+    "UniformStep",
     "case_as_python",
     "design_case", "design_of", "plan", "run", "stream",
 ]  # fmt: skip

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from treadload.errors import InputError, TreadloadError, nearest
 from treadload.validation import (
+    basins,
     cracking,
     crossing,
     dissimilar,
@@ -68,6 +69,7 @@ GROUPS: Mapping[str, Callable[[], Iterator[Check]]] = {
     "energy ratio": energy_ratios.energy_ratio_checks,
     "published": published.published_checks,
     "reliability": reliability.reliability_checks,
+    "basins": basins.basin_checks,
     "cracks": cracking.crack_checks,
     "criteria": tensors.criteria_checks,
     "traffic": journeys.traffic_checks,

@@ -153,7 +153,7 @@ def transfer(wavenumbers: ArrayLike, stack: Stack, depths: Sequence[float], belo
 
 
 @dataclass(frozen=True)
-class _Compliance:
+class Compliance:
     """Of a body at its top, k u = S f: S = [[xx, xz], [xz, zz]] / scale and det = det S · scale; all (nk,).
 
     scale: 1, or 0 where the body holds nothing along x.
@@ -178,21 +178,21 @@ class Body:
     above, the transverse one as (scale, compliance). slides: whether there is such a spring.
     """
 
-    plane: _Compliance
+    plane: Compliance
     transverse: Scalars
-    sprung: _Compliance
+    sprung: Compliance
     sprung_transverse: tuple[Scalars, Scalars]
     slides: bool
 
     @classmethod
-    def of(cls, plane: _Compliance, transverse: Scalars, k: Array, spring: float, shear: Scalars) -> Body:
+    def of(cls, plane: Compliance, transverse: Scalars, k: Array, spring: float, shear: Scalars) -> Body:
         """With a spring, Pa/m, between it and a layer whose shear modulus gives the scale."""
         if spring == math.inf:
             return cls(plane, transverse, plane, (1.0, transverse), False)
         # The spring adds k / spring to the compliance xx; as multiples of `scale` neither 0 nor inf occurs.
         scale = spring + k * np.abs(shear)
         scaled_spring, free = spring / scale, k / scale
-        at_rigid_bond = _Compliance(
+        at_rigid_bond = Compliance(
             scaled_spring,
             scaled_spring * plane.xx + free,
             scaled_spring * plane.zz,
@@ -220,9 +220,9 @@ class Slab:
 
     @classmethod
     def of(
-        cls, k: Array, shear: Scalars, poisson: Scalars, thickness: float, bottom: float, upright: Upright | None
+        cls, k: Array, shear: Scalars, poisson: Scalars, thickness: Scalars, bottom: float, upright: Upright | None
     ) -> Slab:
-        """A slab of a material at wavenumbers k (nk,)."""
+        """A slab of a material at wavenumbers k (nk,); all of it may be arrays over these."""
         a = k * thickness
         if upright is not None:
             return cls._upright(a, shear, poisson, upright, bottom)
@@ -290,7 +290,7 @@ class Slab:
             2 * e / (1 + e * e),
         )
 
-    def up(self, s: _Compliance) -> _Compliance:
+    def up(self, s: Compliance) -> Compliance:
         """Compliance at the top, on a body of compliance s."""
         (cx, cz, cc, cd), (txx, txz, tzx, tzz, td) = self.c, self.t
         sum_, xx, zz, xz = self._together(s)
@@ -299,9 +299,9 @@ class Slab:
         px, pz = (row[0] * txx + row[1] * txz) / sum_, (second_row[0] * tzx + second_row[1] * tzz) / sum_
         pc = (row[0] * tzx + row[1] * tzz) / sum_
         det = cd + cz * px + cx * pz - 2 * cc * pc + td * td * s.det / sum_
-        return _Compliance(1.0, cx + px, cz + pz, cc + pc, det)
+        return Compliance(1.0, cx + px, cz + pz, cc + pc, det)
 
-    def down(self, s: _Compliance, force: Array) -> tuple[Array, Array]:
+    def down(self, s: Compliance, force: Array) -> tuple[Array, Array]:
         """Displacement and force (2, 2, nk) at the bottom, on a body of compliance s, under a force at the top."""
         (kx, kz, kc, _), (txx, txz, tzx, tzz, _) = self.k, self.t
         sum_, xx, zz, xz = self._together(s)
@@ -313,7 +313,7 @@ class Slab:
             np.stack([s.scale * x + s.zz * ax - s.xz * az, s.scale * z + s.xx * az - s.xz * ax]),
         )
 
-    def _together(self, s: _Compliance) -> tuple[Scalars, Scalars, Scalars, Scalars]:
+    def _together(self, s: Compliance) -> tuple[Scalars, Scalars, Scalars, Scalars]:
         """Determinant of 1 + K S; (S⁻¹ + K)⁻¹ times that: xx, zz, xz."""
         kx, kz, kc, kd = self.k
         together = s.scale + kx * s.xx + kz * s.zz + 2 * kc * s.xz + kd * s.det
@@ -336,7 +336,7 @@ def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab]
     parts = pieces(stack, depths)
     if stack.rigid:
         zero = np.zeros_like(k)
-        plane, transverse = _Compliance(1.0, zero, zero, zero, zero), zero
+        plane, transverse = Compliance(1.0, zero, zero, zero, zero), zero
     else:
         plane, transverse = _half_space(np.ones_like(k), stack)
     slabs: list[Slab] = []
@@ -351,17 +351,15 @@ def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab]
     return slabs[::-1], bodies[::-1]
 
 
-def _half_space(ones: Array, stack: Stack) -> tuple[_Compliance, Scalars]:
+def _half_space(ones: Array, stack: Stack) -> tuple[Compliance, Scalars]:
     """Compliance of the last layer as a half-space, plane and transverse."""
     shear, poisson, upright = stack.shear[-1], stack.poisson[-1], stack.upright_of(-1)
     if upright is not None:
         xx, zz, xz, transverse = (entry * ones for entry in upright.half_space(shear, poisson))
-        return _Compliance(1.0, xx, zz, xz, xx * zz - xz * xz), transverse
+        return Compliance(1.0, xx, zz, xz, xx * zz - xz * xz), transverse
     shear, squeeze = shear * ones, 2 - 4 * poisson
     diagonal = (2 + squeeze) / (4 * shear)
-    return _Compliance(
-        1.0, diagonal, diagonal, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)
-    ), 1 / shear
+    return Compliance(1.0, diagonal, diagonal, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear)), 1 / shear
 
 
 def pieces(stack: Stack, depths: Sequence[float]) -> list[tuple[int, float, float, float]]:

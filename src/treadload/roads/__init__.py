@@ -1,0 +1,9 @@
+"""Measured roads: moduli of layers from deflection basins."""
+
+from treadload.roads.backcalculate import backcalculate
+from treadload.roads.basins import Basins
+from treadload.roads.layout import BasinLayout
+from treadload.roads.reading import read_basins
+from treadload.roads.solution import Backcalculation
+
+__all__ = ["Backcalculation", "BasinLayout", "Basins", "backcalculate", "read_basins"]

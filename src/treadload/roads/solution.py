@@ -1,0 +1,359 @@
+"""The result of a backcalculation: moduli with their error bars, and what is flagged, refused and undecided."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+from scipy.special import ndtri, stdtrit
+
+from treadload import variables
+from treadload.composing import BaseResult, Holds
+from treadload.errors import InputError, nearest
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic, TemperatureDependent
+from treadload.pavement import Pavement
+from treadload.roads.basins import Basins
+from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
+from treadload.roads.uncertainty import SensorError
+from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, modulus_of, poisson_of
+from treadload.rows import Row, row
+from treadload.variables import modulus_in_words
+
+# Level of the intervals that rows and figures show.
+LEVEL = 0.9
+# Loads that differ by less than this part belong to one height of drop.
+_SAME_LOAD = 0.12
+# Moduli that change by more than this part from the least load to the largest are named.
+_CHANGES = 0.15
+_LISTED = 5
+# Deviations of ln E above this are factors rather than parts.
+_WIDE = 0.4
+
+
+@dataclass(frozen=True, eq=False)
+class Backcalculation(BaseResult, group="backcalculation"):
+    """Moduli of a road's layers at every drop, with their error bars.
+
+    dataset: over `basin`, `layer_name`, `unknown` and `sensor`; see `treadload.variables`. structure: that was asked.
+    stats: how it was solved. warnings: sentences for the user.
+    """
+
+    title: ClassVar[str] = "Backcalculated layer moduli"
+    subject: ClassVar[str] = "Moduli of a road from measured deflections"
+    holds: ClassVar[Holds] = Holds(
+        {
+            "fitted_modulus modulus_low modulus_high modulus_deviation modulus_at_reference": "basin layer_name",
+            "layer_thickness": "basin layer_name",
+            "unknown_at_bound": "basin unknown",
+            "unknown_correlation": "basin unknown other",
+            "measured_deflection fitted_deflection": "basin sensor",
+            "basin_misfit error_scatter basin_freedom basin_status plate_load": "basin",
+            "drop_position asphalt_temperature": "basin",
+            "stiff_depth stiff_depth_deviation": "basin",
+            "sensor": "sensor",
+        },
+        labels={
+            "station": "basin", "section": "basin", "reason": "basin", "undecided": "basin",
+            "layer_name": "layer_name",
+            "unknown": "unknown", "other": "other",
+        },
+        numbers="plate_radius errors_given reference_temperature",
+        texts="plate sensor_error source",
+    )  # fmt: skip
+
+    dataset: xr.Dataset
+    structure: Pavement
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def drop(self, drop: int | str) -> int:
+        """Number of a drop, from 0: itself, or the first drop of a station. Raises InputError."""
+        count = self.dataset.sizes["basin"]
+        if isinstance(drop, int) and not isinstance(drop, bool):
+            if -count <= drop < count:
+                return drop % count
+            raise InputError(f"drop must lie between 0 and {count - 1}, got {drop}")
+        stations = [str(name) for name in self.dataset["station"].to_numpy()]
+        if drop not in stations:
+            raise InputError(f"there is no station {drop!r}; {nearest(str(drop), dict.fromkeys(stations))}")
+        return stations.index(str(drop))
+
+    def interval(self, drop: int | str, layer: str, level: float = LEVEL) -> tuple[float, float]:
+        """Between what the modulus of a layer lies with a probability, Pa: lognormal, NaN where it is not decided.
+
+        Normal where the errors were given, else Student's with the degrees of freedom left. Raises InputError.
+        """
+        if not 0 < level < 1:
+            raise InputError(f"level must lie in (0, 1), got {level:g}; {LEVEL:g} is the default")
+        names = [str(name) for name in self.dataset["layer_name"].to_numpy()]
+        if layer not in names:
+            raise InputError(f"there is no layer {layer!r}; {nearest(layer, names)}")
+        data = self.dataset.isel(basin=self.drop(drop), layer_name=names.index(layer))
+        reach = quantile(level, float(data["basin_freedom"]), stated=self._stated(float(data["error_scatter"])))
+        part = math.exp(reach * float(data["modulus_deviation"]))
+        return float(data["fitted_modulus"]) / part, float(data["fitted_modulus"]) * part
+
+    def road(self, drop: int | str) -> Pavement:
+        """The road at a drop: its fitted moduli, thicknesses, and the stiff layer. Raises InputError if refused."""
+        number = self.drop(drop)
+        data = self.dataset.isel(basin=number)
+        if int(data["basin_status"]) == REFUSED:
+            raise InputError(f"station {data['station'].item()} was refused: {data['reason'].item()}")
+        layers = []
+        thickness, moduli = data["layer_thickness"].to_numpy(), data["fitted_modulus"].to_numpy()
+        for layer, name, deep, modulus in zip(
+            self.structure.layers, data["layer_name"].to_numpy(), thickness, moduli, strict=True
+        ):
+            if deep > 0:
+                material = Elastic(float(modulus), poisson_of(layer))
+                size = None if math.isinf(deep) else float(deep)
+                layers.append(replace(layer, material=material, thickness=size, name=str(name)))
+        return Pavement(layers, rigid_base=layers[-1].thickness is not None)
+
+    def _stated(self, scatter: float) -> bool:
+        # A scatter of exactly 1 is that of errors that count as stated.
+        return bool(self.dataset.attrs["errors_given"]) or scatter == 1.0
+
+    @property
+    def heading(self) -> str:
+        """How many basins, and of what."""
+        data = self.dataset
+        return f"{data.sizes['basin']} basins of {data.sizes['sensor']} sensors, {data.sizes['unknown']} unknowns"
+
+    def rows(self) -> tuple[Row, ...]:
+        """How many were fitted, moduli by load, their error bars, the misfit, what is flagged, refused, undecided."""
+        data = self.dataset
+        status = data["basin_status"].to_numpy()
+        counts = {name: int((status == code).sum()) for name, code in _STATUS.items()}
+        rows = [row("basin_status", ", ".join(f"{count} {name}" for name, count in counts.items()))]
+        good = status != REFUSED
+        if good.any():
+            for load, drops in load_classes(data["plate_load"].to_numpy(), good):
+                rows += self._rows_at(load, drops)
+            misfit = data["basin_misfit"].to_numpy()[good]
+            rows.append(row("basin_misfit", float(np.median(misfit)), note=f"largest {100 * misfit.max():.2g} %"))
+        rows.append(row("sensor_error", str(data.attrs["sensor_error"])))
+        rows.append(row("stiff_depth", *_depth(data, good)))
+        rows += _listed(data, status == FLAGGED, "flagged")
+        rows += _listed(data, status == REFUSED, "refused")
+        rows += _undecided(data)
+        if self.stats:
+            rows.append(row("solved", "{basins} basins in {seconds:.1f} s".format(**self.stats)))
+        return tuple(rows)
+
+    def _rows_at(self, load: float, drops: Array) -> list[Row]:
+        rows = []
+        for number, name in enumerate(map(str, self.dataset["layer_name"].to_numpy())):
+            at = self.dataset.isel(basin=drops, layer_name=number)
+            moduli = at["fitted_modulus"].to_numpy()
+            deviations = at["modulus_deviation"].to_numpy()
+            if not np.isfinite(moduli).any():
+                continue
+            low, middle, high = np.nanquantile(moduli, [0.25, 0.5, 0.75])
+            notes = []
+            if np.isfinite(deviations).any():
+                notes.append(f"{deviation_in_words(float(np.nanmedian(deviations)))} (one standard deviation)")
+            if len(drops) > 1:
+                notes.append(f"half of {len(drops)} from {modulus_in_words(low)} to {modulus_in_words(high)}")
+            label = f"{name} at {load / 1e3:.3g} kN"
+            rows.append(row("fitted_modulus", middle, label=label, note=", ".join(notes)))
+        return rows
+
+
+_NAMES, _LEAVE = re.compile(" and |, "), "these data leave "
+_STATUS = {"fitted": FITTED, "flagged": FLAGGED, "refused": REFUSED}
+
+
+def deviation_in_words(deviation: float) -> str:
+    """A standard deviation of ln E."""
+    return (
+        f"± {100 * deviation:.2g} %" if deviation < _WIDE else f"times or over {math.exp(min(deviation, 20.0)):.2g}"
+    )
+
+
+def quantile(level: float, freedom: float, *, stated: bool) -> float:
+    """Standard deviations on either side of a number that hold it with a probability."""
+    tail = 0.5 * (1 + level)
+    if stated or not freedom > 0:
+        return float(ndtri(tail))
+    return float(stdtrit(freedom, tail))
+
+
+def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:
+    """Drops by their height: median load, N, and numbers of the drops, of those that are good."""
+    drops = np.flatnonzero(good)
+    order = drops[np.argsort(loads[drops])]
+    ordered = loads[order]
+    cuts = np.flatnonzero(np.diff(ordered) > _SAME_LOAD * ordered[:-1]) + 1
+    return [(float(np.median(loads[part])), np.sort(part)) for part in np.split(order, cuts)]
+
+
+def solution(
+    basins: Basins,
+    unknowns: Unknowns,
+    error: SensorError,
+    fits: Fits,
+    factors: Array,
+    reference: float,
+    stats: Mapping[str, float],
+) -> Backcalculation:
+    """The result of fits. factors: of the moduli to the reference temperature (n, L)."""
+    road, names = unknowns.road, layer_names(unknowns.road)
+    count, size = len(basins), len(names)
+    good = fits.status != REFUSED
+    moduli, deviation = np.full((2, count, size), math.nan)
+    for number in range(size):
+        if number in unknowns.moduli:
+            place = unknowns.moduli.index(number)
+            moduli[:, number], deviation[:, number] = np.exp(fits.x[:, place]), fits.deviation[:, place]
+        else:
+            moduli[good, number] = modulus_of(road.layers[number])
+    thickness = _thickness(basins, unknowns, names, fits)
+    moduli[~(thickness > 0)] = math.nan
+    stated = error.stated | (fits.scatter == 1.0)
+    reach = np.array([quantile(LEVEL, f, stated=bool(s)) for f, s in zip(fits.freedom, stated, strict=True)])
+    with np.errstate(over="ignore"):
+        part = np.exp(reach[:, None] * deviation)
+    depth = thickness.sum(axis=1)
+    depth_deviation = fits.deviation[:, -1] * depth if unknowns.seeks_depth else np.full(count, math.nan)
+    nothing = np.full(count, math.nan)
+    over = ("basin", "layer_name")
+    dataset = variables.dataset(
+        {
+            "fitted_modulus": (over, moduli),
+            "modulus_low": (over, moduli / part),
+            "modulus_high": (over, moduli * part),
+            "modulus_deviation": (over, deviation),
+            "modulus_at_reference": (over, moduli * factors),
+            "layer_thickness": (over, thickness),
+            "unknown_at_bound": (("basin", "unknown"), fits.at_bound),
+            "unknown_correlation": (("basin", "unknown", "other"), fits.correlation),
+            "measured_deflection": (("basin", "sensor"), basins.deflection),
+            "fitted_deflection": (("basin", "sensor"), fits.deflection),
+            "basin_misfit": (("basin",), fits.misfit),
+            "error_scatter": (("basin",), fits.scatter),
+            "basin_freedom": (("basin",), fits.freedom),
+            "basin_status": (("basin",), fits.status),
+            "plate_load": (("basin",), basins.load),
+            "drop_position": (("basin",), nothing if basins.position is None else basins.position),
+            "asphalt_temperature": (("basin",), nothing if basins.temperature is None else basins.temperature),
+            "stiff_depth": (("basin",), np.where(np.isfinite(depth), depth, math.nan)),
+            "stiff_depth_deviation": (("basin",), depth_deviation),
+        },
+        {
+            "station": ("basin", list(basins.station)),
+            "section": ("basin", list(basins.section) or [""] * count),
+            "reason": ("basin", [str(text) for text in fits.reason]),
+            "undecided": ("basin", [str(text) for text in fits.undecided]),
+            "layer_name": list(names),
+            "unknown": list(unknowns.names),
+            "other": list(unknowns.names),
+            "sensor": basins.offsets,
+        },
+        plate_radius=basins.plate_radius,
+        plate=basins.plate,
+        sensor_error=f"{error}, as given" if error.stated else f"{error} by default; their size from each misfit",
+        errors_given=int(error.stated),
+        reference_temperature=reference,
+        source=basins.source,
+    )
+    return Backcalculation(dataset, road, dict(stats), _warnings(basins, unknowns, dataset))
+
+
+def _thickness(basins: Basins, unknowns: Unknowns, names: tuple[str, ...], fits: Fits) -> Array:
+    from treadload.roads.model import thicknesses
+
+    table = thicknesses(basins, unknowns, names)
+    if unknowns.seeks_depth:
+        table[:, -1] = np.exp(fits.x[:, -1]) - table[:, :-1].sum(axis=1)
+    return table
+
+
+def _warnings(basins: Basins, unknowns: Unknowns, data: xr.Dataset) -> tuple[str, ...]:
+    texts = list(basins.warnings)
+    status = data["basin_status"].to_numpy()
+    good = status != REFUSED
+    if not good.any():
+        return (*texts, "no basin could be fitted: see the reasons of the drops")
+    classes = load_classes(data["plate_load"].to_numpy(), good)
+    if len(classes) > 1:
+        (least, first), (most, last) = classes[0], classes[-1]
+        changes = []
+        for number in unknowns.moduli:
+            moduli = data["fitted_modulus"].to_numpy()[:, number]
+            ratio = float(np.nanmedian(moduli[last]) / np.nanmedian(moduli[first]))
+            if abs(ratio - 1) > _CHANGES:
+                changes.append(f"{data['layer_name'].to_numpy()[number]} by {100 * (ratio - 1):+.0f} %")
+        if changes:
+            texts.append(
+                f"moduli change with the load, from {least / 1e3:.3g} to {most / 1e3:.3g} kN in the median: "
+                f"{', '.join(changes)}; one set of linear moduli does not fit all loads"
+            )
+    waits = any(isinstance(layer.material, TemperatureDependent) for layer in unknowns.road.layers)
+    missing = int(np.isnan(data["asphalt_temperature"].to_numpy()[good]).sum())
+    if waits and missing:
+        texts.append(f"{missing} drops have no asphalt temperature: their moduli are not corrected for it")
+    return tuple(texts)
+
+
+def _depth(data: xr.Dataset, good: Array) -> tuple[float | str]:
+    depth = data["stiff_depth"].to_numpy()[good]
+    if not np.isfinite(depth).any():
+        return ("none: the last layer is a half-space",)
+    if DEPTH not in data["unknown"].to_numpy():
+        return (f"{float(np.nanmedian(depth)):.4g} m below the surface",)
+    return (f"{float(np.nanmedian(depth)):.4g} m below the surface in the median, sought",)
+
+
+def _listed(data: xr.Dataset, chosen: Array, key: str) -> list[Row]:
+    """Rows of the reasons, those of several basins counted."""
+    by_kind: dict[str, list[tuple[str, str]]] = {}
+    for basin in np.flatnonzero(chosen):
+        for text in str(data["reason"].to_numpy()[basin]).split("; "):
+            # Numbers differ from basin to basin; what is wrong stands before the colon.
+            by_kind.setdefault(text.partition(":")[0], []).append((str(data["station"].to_numpy()[basin]), text))
+    rows = []
+    for kind, entries in by_kind.items():
+        if len(entries) == 1:
+            rows.append(row(key, f"station {entries[0][0]}: {entries[0][1]}"))
+        else:
+            rows.append(row(key, f"{kind}: {len(entries)} basins, at {_stations([name for name, _ in entries])}"))
+    return rows
+
+
+def _undecided(data: xr.Dataset) -> list[Row]:
+    """A row for each unknown that some basins leave undecided."""
+    texts = [str(text) for text in data["undecided"].to_numpy()]
+    stations = [str(name) for name in data["station"].to_numpy()]
+    if len(texts) == 1:
+        return [row("undecided", text) for text in texts[0].split("; ") if text]
+    rows = []
+    for name in map(str, data["unknown"].to_numpy()):
+        # The names stand between these words.
+        among = [
+            any(
+                name in _NAMES.split(part.partition(" undecided")[0].removeprefix(_LEAVE))
+                for part in text.split("; ")
+            )
+            for text in texts
+        ]
+        at = [station for station, named in zip(stations, among, strict=True) if named]
+        if at:
+            rows.append(
+                row(
+                    "undecided", f"{name}, alone or with others: {len(at)} of {len(texts)} basins, at {_stations(at)}"
+                )
+            )
+    return rows
+
+
+def _stations(names: list[str]) -> str:
+    distinct = list(dict.fromkeys(names))
+    more = "" if len(distinct) <= _LISTED else f" and {len(distinct) - _LISTED} more stations"
+    return ", ".join(distinct[:_LISTED]) + more

@@ -1,0 +1,53 @@
+"""Checks of backcalculated moduli: a closed form, and basins of the solver of single roads."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+
+import numpy as np
+
+from treadload.kernels.arrays import Array
+from treadload.materials import Elastic
+from treadload.pavement import Layer, Pavement
+from treadload.response import UniformDisc, solve_response
+from treadload.roads import Basins, backcalculate
+from treadload.validation.check import Check, relative
+
+_OFFSETS = np.array([0.0, 0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5, 1.8])
+_LOAD, _RADIUS = 50e3, 0.15
+# Moduli, Pa, Poisson's ratios and thicknesses, m, to the stiff layer.
+_ROADS = {
+    "asphalt, base, soil": ((4e9, 3e8, 7e7), (0.35, 0.35, 0.4), (0.15, 0.3, 9.55)),
+    "thin asphalt on a treated base": ((8e9, 1.2e10, 1e8), (0.35, 0.25, 0.4), (0.06, 0.2, 9.74)),
+}
+
+
+def basin_checks() -> Iterator[Check]:
+    """Moduli of a half-space under both plates by Boussinesq; of layers whose basins another quadrature made."""
+    group = "Backcalculated moduli"
+    modulus, poisson = 1e8, 0.4
+    bare = Pavement.half_space(Elastic(1e9, poisson), name="soil")
+    beside = np.arcsin(_RADIUS / np.maximum(_OFFSETS, _RADIUS))
+    rigid = _LOAD * (1 - poisson**2) / (math.pi * _RADIUS * modulus) * beside
+    result = backcalculate(Basins(rigid[None], _OFFSETS, _load(), _RADIUS, plate="rigid"), bare, stiff_layer=None)
+    fitted = float(result.dataset["fitted_modulus"][0, 0])
+    yield relative(group, "half-space, rigid plate: E, Pa", fitted, modulus, 1e-9, "Boussinesq (1885)")
+    for name, (moduli, ratios, thickness) in _ROADS.items():
+        layers = [
+            Layer(Elastic(e, v), h, name=f"layer {k + 1}")
+            for k, (e, v, h) in enumerate(zip(moduli, ratios, thickness, strict=True))
+        ]
+        road = Pavement(layers, rigid_base=True)
+        disc = UniformDisc(_RADIUS, _LOAD / (math.pi * _RADIUS**2))
+        response = solve_response([disc], road, depths=[0.0], x=_OFFSETS, y=[0.0])
+        down = response.dataset["displacement_z"].to_numpy().reshape(1, -1)
+        result = backcalculate(Basins(down, _OFFSETS, _load(), _RADIUS), road)
+        for k, wanted in enumerate(moduli):
+            fitted = float(result.dataset["fitted_modulus"][0, k])
+            # Deflections of both quadratures agree to 1e-8; thin stiff layers feel that a hundred times.
+            yield relative(group, f"{name}: E of layer {k + 1}, Pa", fitted, wanted, 1e-5, "our layered solver")
+
+
+def _load() -> Array:
+    return np.array([_LOAD])
