@@ -2,8 +2,9 @@
 
 Each place is a design case, a TOML file beside this one, with its traffic, its climate and its criteria; each is
 solved under the tire as a half-space of rubber, as a tread without grooves on an inflated belt, and as ribs with free
-sides on that belt. The crack that the surface criterion starts grows down through the wearing course; years come with
-what 5 and 95 % of such roads see. Traffic and temperatures are assumed.
+sides on that belt. The crack that the surface criterion starts grows down through the wearing course, told by the
+load repetitions of 5, 50 and 95 % of such roads: in years most of them lie beyond any road. Traffic and temperatures
+are assumed.
 
     python examples/top_down/run.py [folder]
 
@@ -29,6 +30,8 @@ TIRES = {
     "ribs": {"belt": "315/80R22.5", "tread": "ribs"},
 }
 DEEP = 0.04
+# Load repetitions at which the figure ends.
+_NEVER = 1e13
 
 
 def case_of(place: str, tire: str, spacing: float | None = None) -> tl.Case:
@@ -57,20 +60,22 @@ def main(
 
 
 def tell(results: dict[tuple[str, str], tl.steps.Result]) -> None:
-    """The table: what governs, and the years of the crack from the surface at 5, 50 and 95 % of roads."""
-    print(f"{'':26s}{'governs first':24s}{'years':>7s}   surface crack, years at 5 / 50 / 95 % of roads")
-    print(f"{'':57s}   {'started':24s}{'40 mm deep':24s}")
+    """The table: what governs, and the load repetitions of the crack from the surface at 5, 50 and 95 % of roads."""
+    print(f"{'':26s}{'governs first':24s}{'years':>7s}   surface crack, load repetitions at 5 / 50 / 95 % of roads")
+    print(f"{'':57s}   {'started':27s}{'40 mm deep':27s}")
     for (place, tire), result in results.items():
         life, growth = result.life, result.growth
-        start, deep = (growth.risk_years_to(depth) for depth in (growth.depths[0], DEEP))
+        start, deep = (_repetitions(result, growth.risk_years_to(depth)) for depth in (growth.depths[0], DEEP))
         print(
             f"{PLACES[place] + ', ' + tire:26s}{life.governing:24s}{_years(life.years(life.governing)):>7s}   "
-            f"{_three(start):24s}{_three(deep):24s}"
+            f"{start:27s}{deep:27s}"
         )
 
 
-def _three(at: dict[float, float]) -> str:
-    return " / ".join(_years(at[risk]) for risk in sorted(at))
+def _repetitions(result: tl.steps.Result, at: dict[float, float]) -> str:
+    """Load repetitions until the years at each risk."""
+    traffic = result.life.traffic
+    return " / ".join("never" if np.isinf(at[risk]) else f"{traffic.passes(at[risk]):.1e}" for risk in sorted(at))
 
 
 def _years(years: float) -> str:
@@ -91,28 +96,27 @@ def check(results: dict[tuple[str, str], tl.steps.Result]) -> None:
 
 @styled
 def depths(results: dict[tuple[str, str], tl.steps.Result]) -> Figure:
-    """Depth of the crack against years: half of the roads, between 5 and 95 % of them."""
+    """Depth of the crack against load repetitions: half of the roads, between 5 and 95 % of them."""
     figure = new_figure(10.5, 4.2)
     places = list(dict.fromkeys(place for place, _ in results))
     axes = figure.subplots(1, len(places), sharey=True, squeeze=False)[0]
     for axis, place in zip(axes, places, strict=True):
         open_axes(axis)
         for colour, tire in zip(CASES, TIRES, strict=False):
-            growth = results[place, tire].growth
-            depth, low, half, high = 1e3 * growth.depths, *growth.dataset["risk_years"].to_numpy()
-            axis.fill_betweenx(depth, low, np.minimum(high, 1e6), color=colour, alpha=0.2, linewidth=0)
-            axis.plot(half, depth, color=colour, label=tire)
-        years = results[place, "ribs"].life.traffic.years
-        axis.axvline(years, color=MUTED, linewidth=0.8, linestyle=":")
+            growth, traffic = results[place, tire].growth, results[place, tire].life.traffic
+            years = growth.dataset["risk_years"].to_numpy()
+            low, half, high = ([traffic.passes(year) if year < 1e9 else _NEVER for year in row] for row in years)
+            axis.fill_betweenx(1e3 * growth.depths, low, high, color=colour, alpha=0.2, linewidth=0)
+            axis.plot(half, 1e3 * growth.depths, color=colour, label=tire)
+        axis.axvline(traffic.passes(traffic.years), color=MUTED, linewidth=0.8, linestyle=":")
         axis.set_xscale("log")
-        axis.set_xlim(5, 1000)
-        axis.xaxis.set_major_formatter("{x:g}")
+        axis.set_xlim(1e6, _NEVER)
         axis.set_title(PLACES[place], loc="left")
-        axis.set_xlabel("years from the opening")
+        axis.set_xlabel("load repetitions")
     axes[0].invert_yaxis()
     axes[0].set_ylabel("depth of the crack (mm)")
     axes[0].legend(loc="center", frameon=False)
-    told = "half of the roads, shaded 5 to 95 %, dotted the design life"
+    told = "half of the roads, shaded 5 to 95 %, dotted those of the design life"
     figure.suptitle(f"How deep a crack from the surface is: {told}", x=0.01, ha="left", fontweight="bold")
     return figure
 

@@ -97,7 +97,7 @@ class Life(BaseResult, group="life"):
         },
         maybe_numbers=f"design_years {' '.join(OF_SENSITIVITY)}",
         positive="design_years",
-        json={"stats": dict, **dict.fromkeys(PER_CRITERION, list), "ends": list, "groups": list},
+        json={"stats": dict, **dict.fromkeys(PER_CRITERION, list), "ends": list, "groups": list, "conditions": dict},
         tree="criterion life_years life_passes worst_y largest_reading",
         agree=lambda data: check_life(data),
         labels={"criterion": "criterion", "axle_class": "axle_class", "season": "season"},

@@ -97,7 +97,9 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
     ]
     rows += _line_rows(data, at, name)
     rows.append(row("damage_by", by_whom(at), group=name))
-    rows.append(row("law_conditions", conditions_of(criterion.law_at(15.0)), group=name))
+    # The tests behind a line of the catalogue are no number of the law: a file keeps the words.
+    conditions = json.loads(data.attrs.get("conditions", "{}")).get(name) or conditions_of(criterion.law_at(15.0))
+    rows.append(row("law_conditions", conditions, group=name))
     if "orientation_damage" in at:
         rows.append(row("first_crack", which_way(at, quantity.harm), group=name))
     return rows
@@ -256,7 +258,9 @@ def criteria_attributes(criteria: Sequence[Criterion], laws: Sequence[FatigueLaw
         "proposed": [_proposed(criterion, law) for criterion, law in zip(criteria, laws, strict=True)],
         "places": [criterion.place for criterion in criteria],
     }
-    return {name: json.dumps(texts, ensure_ascii=name == "places") for name, texts in texts_by_name.items()}
+    texts = {name: json.dumps(texts, ensure_ascii=name == "places") for name, texts in texts_by_name.items()}
+    conditions = {criterion.name: conditions_of(law) for criterion, law in zip(criteria, laws, strict=True)}
+    return {**texts, "conditions": json.dumps(conditions, ensure_ascii=False)}
 
 
 def cautions(
