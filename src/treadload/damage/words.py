@@ -98,7 +98,8 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
     rows += _line_rows(data, at, name)
     rows.append(row("damage_by", by_whom(at), group=name))
     # The tests behind a line of the catalogue are no number of the law: a file keeps the words.
-    conditions = json.loads(data.attrs.get("conditions", "{}")).get(name) or conditions_of(criterion.law_at(15.0))
+    kept = json.loads(data.attrs.get("conditions", "{}")).get(name)
+    conditions = str(kept) if kept else conditions_of(criterion.law_at(15.0))
     rows.append(row("law_conditions", conditions, group=name))
     if "orientation_damage" in at:
         rows.append(row("first_crack", which_way(at, quantity.harm), group=name))
