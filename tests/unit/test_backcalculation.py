@@ -1,12 +1,15 @@
 """Moduli from deflection basins: found without noise, covered with it, and refused with a reason."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
+from treadload.life.reliability.inputs import inputs_of
 from treadload.roads import Basins, backcalculate
 from treadload.roads.model import models, thicknesses
 from treadload.roads.parts import PART
@@ -333,3 +336,35 @@ def test_layers_without_a_static_modulus_are_refused():
         backcalculate(basins(), half)
     with pytest.raises(InputError, match="thickness of 'bass'"):
         backcalculate(basins(thickness={"bass": 0.3}), ROAD)
+
+
+def test_moduli_scatter_together_as_their_covariance_says():
+    """From the basin into a reliability: principal directions reproduce the covariance of ln E to round-off."""
+    rng = np.random.default_rng(6)
+    result = backcalculate(basins(BOWL * (1 + 0.02 * rng.standard_normal(9))), ROAD, error="2 %")
+    scatter = result.scatter(0)
+    road = result.road(0)
+    inputs, skipped = inputs_of(road, replace(scatter, thickness=0.0))
+    assert not skipped
+    assert len(inputs) == 3
+    climate = tl.damage.Climate.equal_parts([15.0], ["mild"])
+    before = np.log([layer.material.modulus for layer in road.layers])
+    moved = [
+        np.log([layer.material.modulus for layer in entry.change(road, climate, 1.0)[0].layers]) - before
+        for entry in inputs
+    ]
+    bars = result.dataset["modulus_deviation"].values[0]
+    joint = result.dataset["unknown_correlation"].values[0]
+    np.testing.assert_allclose(np.array(moved).T @ np.array(moved), joint * np.outer(bars, bars), atol=1e-10)
+    pairs = (("asphalt", "base", 0.9), ("base", "soil", 0.9), ("asphalt", "soil", -0.9))
+    with pytest.raises(InputError, match="contradict each other"):
+        inputs_of(road, replace(scatter, thickness=0.0, modulus_correlation=pairs))
+    with pytest.raises(InputError, match="both moduli by name"):
+        Scatter(moduli=0.1, modulus_correlation=(("a", "b", 0.5),))
+
+
+def test_an_undecided_modulus_does_not_scatter():
+    thin = tl.Pavement([tl.Layer(tl.Elastic(1e9, 0.35), 0.01, name="asphalt"), *ROAD.layers[1:]])
+    result = backcalculate(basins(bowl((3e9, 3e8, 7e7), (0.01, 0.3))), thin, error="5 %")
+    with pytest.raises(InputError, match=r"leaves the modulus of asphalt undecided.*give a prior"):
+        result.scatter(0)

@@ -20,7 +20,9 @@ class Scatter:
     of each law, else of the mix that it judges. thickness: Sh, m, of all asphalt together, whose layers change in
     proportion, or by the name of a layer; left out, by the rule of the French method. moduli: coefficient of
     variation of the modulus of every layer, each on its own, or by the name of a layer. traffic: coefficient of
-    variation of the passes. temperature: of the whole year, K.
+    variation of the passes. temperature: of the whole year, K. modulus_correlation: of the logarithms of two moduli,
+    (layer, layer, correlation) for each pair that has one, as a backcalculation states them; both layers stand in
+    `moduli` by name.
     Thickness and temperature are normal, moduli, traffic and fatigue lognormal about what the life took. Raises
     InputError.
     """
@@ -30,8 +32,19 @@ class Scatter:
     moduli: float | Mapping[str, float] = 0.0
     traffic: float = 0.0
     temperature: float = 0.0
+    modulus_correlation: tuple[tuple[str, str, float], ...] = ()
 
     def __post_init__(self) -> None:
+        for layer, neighbour, correlation in self.modulus_correlation:
+            if not isinstance(self.moduli, Mapping) or not {layer, neighbour} <= set(self.moduli):
+                raise InputError(
+                    f"the correlation of {layer!r} and {neighbour!r} needs the scatter of both moduli by name"
+                )
+            if layer == neighbour or not -1 < correlation < 1:
+                raise InputError(
+                    f"the correlation of {layer!r} and {neighbour!r} must lie in (-1, 1) and join two layers, got "
+                    f"{correlation:g}"
+                )
         for name, most, unit, hint in (
             ("fatigue", _MOST_FATIGUE, "", "SN is 0.25 to 0.3 for bituminous mixes, 1 for treated layers"),
             ("thickness", _MOST_THICKNESS, " m", "25 mm is 0.025"),

@@ -14,6 +14,7 @@ from scipy.special import ndtri, stdtrit
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
+from treadload.damage.scatter import Scatter
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
@@ -34,6 +35,9 @@ _CHANGES = 0.15
 _LISTED = 5
 # Deviations of ln E above this are factors rather than parts.
 _WIDE = 0.4
+# Deviation of ln E up to which a modulus scatters as one number: a coefficient of variation of 1. Correlations closer
+# to one than this are round-off.
+_DECIDED, _JOINT = math.sqrt(math.log(2.0)), 1 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +119,34 @@ class Backcalculation(BaseResult, group="backcalculation"):
                 size = None if math.isinf(deep) else float(deep)
                 layers.append(replace(layer, material=material, thickness=size, name=str(name)))
         return Pavement(layers, rigid_base=layers[-1].thickness is not None)
+
+    def scatter(self, station: int | str) -> Scatter:
+        """How the fitted moduli of a station scatter, with their correlation: for `life.life_reliability`.
+
+        Raises InputError for a refused station and a modulus that the basin leaves undecided.
+        """
+        number = self.drop(station)
+        self.road(number)
+        data = self.dataset.isel(basin=number)
+        names = [str(name) for name in data["layer_name"].to_numpy()]
+        deviation = dict(zip(names, map(float, data["modulus_deviation"].to_numpy()), strict=True))
+        unknowns = [str(name) for name in data["unknown"].to_numpy()]
+        sought = [k for k, name in enumerate(unknowns) if math.isfinite(deviation.get(name, math.nan))]
+        wide = [unknowns[k] for k in sought if deviation[unknowns[k]] > _DECIDED]
+        if wide:
+            raise InputError(
+                f"the basin of station {data['station'].item()} leaves the modulus of {wide[0]} undecided: it has a "
+                f"deviation of ln E of {deviation[wide[0]]:.2g}, above {_DECIDED:.2g}; give a prior, or fix the layer"
+            )
+        joint = data["unknown_correlation"].to_numpy()
+        return Scatter(
+            moduli={unknowns[k]: math.sqrt(math.expm1(deviation[unknowns[k]] ** 2)) for k in sought},
+            modulus_correlation=tuple(
+                (unknowns[i], unknowns[k], float(np.clip(joint[i, k], -_JOINT, _JOINT)))
+                for n, i in enumerate(sought)
+                for k in sought[n + 1 :]
+            ),
+        )
 
     def _stated(self, scatter: float) -> bool:
         # A scatter of exactly 1 is that of errors that count as stated.

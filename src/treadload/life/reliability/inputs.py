@@ -6,6 +6,8 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from treadload.damage.climate import Climate
 from treadload.damage.laws.french import thickness_scatter
 from treadload.damage.scatter import Scatter
@@ -22,6 +24,7 @@ ASPHALT, TEMPERATURE = "thickness of the asphalt", "temperature"
 TRAFFIC, FATIGUE, INTERPOLATION = "traffic", "fatigue", "interpolation"
 # A thickness that scatters by more than this part of it might vanish.
 _MOST = 0.3
+_ROUND_OFF = 1e-9
 
 
 @dataclass(frozen=True)
@@ -39,7 +42,10 @@ class Input:
 def inputs_of(road: Pavement, scatter: Scatter) -> tuple[tuple[Input, ...], tuple[str, ...]]:
     """What of the road and its climate scatters; what could not be taken, and why. Raises InputError."""
     names = names_of(road)
-    inputs = [*_thicknesses(road, names, scatter.thickness), *_moduli(road, names, scatter.moduli)]
+    inputs = [
+        *_thicknesses(road, names, scatter.thickness),
+        *_moduli(road, names, scatter.moduli, scatter.modulus_correlation),
+    ]
     skipped: list[str] = []
     if scatter.temperature:
         if any(layer.depends_on_temperature for layer in road.layers):
@@ -128,7 +134,12 @@ def _thickness(road: Pavement, name: str, numbers: tuple[int, ...], deviation: f
     return Input(name, f"{deviation * 1e3:g} mm", deviation, change)
 
 
-def _moduli(road: Pavement, names: Sequence[str], coefficients: float | Mapping[str, float]) -> list[Input]:
+def _moduli(
+    road: Pavement,
+    names: Sequence[str],
+    coefficients: float | Mapping[str, float],
+    correlation: Sequence[tuple[str, str, float]] = (),
+) -> list[Input]:
     if isinstance(coefficients, Mapping):
         rows = [(number, coefficients[name]) for number, name in _by_name(names, coefficients, "moduli")]
     else:
@@ -143,7 +154,45 @@ def _moduli(road: Pavement, names: Sequence[str], coefficients: float | Mapping[
                 "names of the other layers"
             )
         inputs.append(_modulus(f"modulus of {names[number]}", number, variation))
+    return _together(names, rows, correlation) if correlation else inputs
+
+
+def _together(
+    names: Sequence[str], rows: Sequence[tuple[int, float]], correlation: Sequence[tuple[str, str, float]]
+) -> list[Input]:
+    """Moduli that scatter together: the principal directions of the covariance of their logarithms.
+
+    Raises InputError for correlations that no numbers can have.
+    """
+    numbers = [number for number, _ in rows]
+    place = {names[number]: k for k, number in enumerate(numbers)}
+    matrix = np.eye(len(rows))
+    for first, second, value in correlation:
+        matrix[place[first], place[second]] = matrix[place[second], place[first]] = value
+    size = np.array([lognormal(variation) for _, variation in rows])
+    shares, directions = np.linalg.eigh(matrix * np.outer(size, size))
+    if shares[0] < -_ROUND_OFF * shares[-1]:
+        raise InputError(
+            "the correlations of the moduli contradict each other: no numbers scatter so; give those of one fit"
+        )
+    inputs: list[Input] = []
+    for share, direction in zip(shares[::-1], directions.T[::-1], strict=True):
+        powers = math.sqrt(max(float(share), 0.0)) * direction
+        if np.abs(powers).max() > _ROUND_OFF:
+            words = ", ".join(
+                f"{names[n]} {100 * math.expm1(p):+.2g} %" for n, p in zip(numbers, powers, strict=True)
+            )
+            inputs.append(_direction(f"moduli together, {len(inputs) + 1}", words, numbers, powers.tolist()))
     return inputs
+
+
+def _direction(name: str, words: str, numbers: Sequence[int], powers: Sequence[float]) -> Input:
+    def change(road: Pavement, climate: Climate, z: float) -> tuple[Pavement, Climate]:
+        for number, power in zip(numbers, powers, strict=True):
+            road = stiffer(road, number, math.exp(z * power))
+        return road, climate
+
+    return Input(name, words, math.nan, change)
 
 
 def _modulus(name: str, number: int, variation: float) -> Input:
