@@ -406,6 +406,8 @@ _CLIMATE = {
 }
 
 _GROWTH = {
+    "earliest_years": ("1", "years until the first crack of any place starts"),
+    "earliest_y": ("m", "place where a crack starts first"),
     "crack_depth": ("m", "depth of a crack's tip from its mouth"),
     "solved_depth": ("m", "depth of a crack's tip at which stress intensity was solved"),
     "initiation_passes": ("1", "passes until a crack starts at a place"),
@@ -675,6 +677,7 @@ _DISPLAYS_LIFE = {
     "growth_starts": Display("crack starts"),
     "crack_depth": Display("crack depth", "mm", ".1f"),
     "reach_years": Display("reached after", "", years_in_words),
+    "earliest_years": Display("first crack elsewhere after", "", years_in_words),
     "risk_years": Display("reached after, at a risk", "", years_in_words),
     "stress_intensity_range": Display("stress intensity range", "MPa√m", ".3g"),
     "thermal_intensity_range": Display("stress intensity range of the day", "MPa√m", ".3g"),

@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
+from scipy.interpolate import PchipInterpolator
 
 from treadload.damage.growth.intensity import BREAK
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.life.climate import curves, first_nodes
 from treadload.life.seasons import Warm
-from treadload.life.wheels import Wheels
+from treadload.life.wheels import MARGIN, Wheels
+from treadload.response.basin import basin_tensors
 from treadload.response.several import Question, tensors_of_many
 
 # Points near a wheel and apart from it, m, along travel and across it; how far from its edges they reach, and how far
-# around them the finer ones do.
+# around them the finer ones do. Beyond, in the basin, points stand further apart.
 _NEAR, _FAR, _REACH, _AROUND = 0.012, 0.040, 0.24, 0.02
+_BASIN_X, _BASIN_Y = 0.048, 0.072
 # The first distance below the surface at which stress is read, m, the largest ratio of two that follow, and the
 # longest step as a part of the way.
 _FIRST, _RATIO, _STEP = 0.003, 1.5, 0.1
@@ -45,23 +50,66 @@ def distances_to(thickness: float, interfaces: Sequence[float] = (), *, upwards:
     return np.sort(np.concatenate([even[apart], sides]))
 
 
-def lines(wheels: Wheels, y: Array) -> tuple[Array, Array]:
-    """Places y and x at which the stress is read, m."""
-    cell_x, cell_y = float(wheels.x[0, 1] - wheels.x[0, 0]), wheels.cell
-    behind = wheels.x[0, 0] - cell_x * math.ceil(_REACH / cell_x)
-    lattice = np.arange(behind, wheels.x[-1, -1] + _REACH + 0.5 * cell_x, cell_x)
-    x = _spread(lattice, [(row[0], row[-1]) for row in wheels.x], cell_x)
-    cells = y[:: round(cell_y / (y[1] - y[0]))]
-    return _spread(cells, [(load.grid.y[0], load.grid.y[-1]) for load in wheels.loads], cell_y), x
+@dataclass(frozen=True, eq=False)
+class CrackLines:
+    """Places y and x, m, rising, at which the stress is read down the road; those of them near the wheels.
+
+    near_y, near_x: by number. Elsewhere what is read is the basin around the wheels.
+    """
+
+    y: Array
+    x: Array
+    near_y: IntArray
+    near_x: IntArray
+
+    @classmethod
+    def of(cls, wheels: Wheels, y: Array, reach: float) -> CrackLines:
+        """Of a class that is read at y, evenly spaced, m. reach: m, along travel, of the basin, see `basin_reach`."""
+        cell_x, cell_y = float(wheels.x[0, 1] - wheels.x[0, 0]), wheels.cell
+        behind = wheels.x[0, 0] - cell_x * math.ceil(_REACH / cell_x)
+        lattice = np.arange(behind, wheels.x[-1, -1] + _REACH + 0.5 * cell_x, cell_x)
+        near_x = _spread(lattice, [(row[0], row[-1]) for row in wheels.x], cell_x)
+        beside = [(load.grid.y[0], load.grid.y[-1]) for load in wheels.loads]
+        cells = y[:: round(cell_y / (y[1] - y[0]))]
+        inside = (cells > min(low for low, _ in beside) - MARGIN) & (cells < max(high for _, high in beside) + MARGIN)
+        near_y = _spread(cells[inside], beside, cell_y)
+        at_x = _outside(near_x, wheels.x[0, 0] - reach, wheels.x[-1, -1] + reach, _BASIN_X)
+        at_y = _outside(near_y, float(y[0]), float(y[-1]), _BASIN_Y)
+        return cls(at_y, at_x, np.searchsorted(at_y, near_y), np.searchsorted(at_x, near_x))
 
 
-def stresses(wheels: Wheels, roads: Sequence[Warm], depths: Array, x: Array, y: Array) -> list[Array]:
-    """Stress (6, nz, ny, nx), Pa, in each road."""
-    speed = wheels.speed if roads[0].road.is_viscoelastic else None
-    questions = [Question(wheels.joined, road.road, depths) for road in roads]
-    tensors = tensors_of_many(questions, x, y, needs=_STRESS, speed=speed, side="above")
-    assert tensors is not None
-    return [np.stack([data[name].to_numpy() for name in _STRESS]) for data in tensors]
+def _outside(near: Array, low: float, high: float, step: float) -> Array:
+    """Points near the wheels, and others beyond them down to low and up to high, a step apart at most, m."""
+    before, behind = max(math.ceil((near[0] - low) / step), 0), max(math.ceil((high - near[-1]) / step), 0)
+    return np.concatenate(
+        [
+            np.linspace(low, near[0], before + 1)[:-1],
+            near,
+            np.linspace(near[-1], high, behind + 1)[1:],
+        ]
+    )
+
+
+def stresses(wheels: Wheels, roads: Sequence[Warm], depths: Array, lines: CrackLines) -> list[Array]:
+    """Stress (6, nz, ny, nx), Pa, in each road: under the wheels as they are near them, in their basin elsewhere."""
+    at: dict[str, Any] = {"needs": _STRESS, "side": "above"}
+    at["speed"] = wheels.speed if roads[0].road.is_viscoelastic else None
+    around = basin_tensors([Question(wheels.coarse, road.road, depths) for road in roads], lines.x, lines.y, **at)
+    near = tensors_of_many(
+        [Question(wheels.joined, road.road, depths) for road in roads],
+        lines.x[lines.near_x],
+        lines.y[lines.near_y],
+        **at,
+    )
+    assert around is not None
+    assert near is not None
+    block = np.ix_(lines.near_y, lines.near_x)
+    result = []
+    for far, close in zip(around, near, strict=True):
+        stress = np.stack([far[name].to_numpy() for name in _STRESS])
+        stress[:, :, block[0], block[1]] = np.stack([close[name].to_numpy() for name in _STRESS])
+        result.append(stress)
+    return result
 
 
 def nodes_of_climate(warmth: Array | None, count: int) -> list[int]:
@@ -102,8 +150,6 @@ def _spread(lattice: Array, spans: Sequence[tuple[float, float]], cell: float) -
 
 
 def between_rows(rows: Array, y: Array, ranges: Array) -> Array:
-    """Ranges (n, rows, 4, cycles) at y (n, y, 4, cycles), linear between rows."""
-    at = np.clip(np.searchsorted(rows, y) - 1, 0, len(rows) - 2)
-    part = np.clip((y - rows[at]) / (rows[at + 1] - rows[at]), 0.0, 1.0)[:, None, None]
-    ranges_here: Array = ranges[:, at] * (1 - part) + ranges[:, at + 1] * part
+    """Ranges (n, rows, 4, cycles) at y (n, y, 4, cycles), monotone cubics between rows, level beyond them."""
+    ranges_here: Array = PchipInterpolator(rows, ranges, axis=1)(np.clip(y, rows[0], rows[-1]))
     return ranges_here

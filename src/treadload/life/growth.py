@@ -35,13 +35,14 @@ from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.kernels.fracture.crack import CrackFaces
 from treadload.kernels.fracture.dislocations import Section
+from treadload.kernels.largest import index_of_largest
 from treadload.life.climate import warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.crack_caveats import at_the_end, cautions
 from treadload.life.crossings import (
+    CrackLines,
     between_rows,
     distances_to,
-    lines,
     nodes_of_climate,
     over_seasons,
     stresses,
@@ -55,6 +56,7 @@ from treadload.materials.kinds import limit_of, upright
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH
+from treadload.response.basin import basin_reach
 
 # Depths that a result tells between initiation and the end, m apart at least.
 _STEP = 0.005
@@ -114,7 +116,8 @@ def grow_cracks(
     with pool_of(workers) as pool:
         contacts.solve(states, warm.distinct[0].road, pool, count)
         by_class = [[contacts.solved[state] for state in states_of(row, tire)] for row in classes]
-        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes)
+        reach = basin_reach(road.road for roads in warm.by_class for road in roads)
+        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes, reach)
         wheels = [
             wheels_of(contacts_of_class, row, y) for contacts_of_class, row in zip(by_class, classes, strict=True)
         ]
@@ -125,13 +128,14 @@ def grow_cracks(
         depths = mouth - distances[::-1] if upwards else distances
 
         def cross(row: int) -> list[Crossing]:
-            rows, x = lines(wheels[row], y)
+            lines = CrackLines.of(wheels[row], y, reach)
             roads = [warm.by_class[row][node] for node in nodes]
             own_roads = []
-            for season, stress in zip(nodes, stresses(wheels[row], roads, depths, x, rows), strict=True):
+            for season, stress in zip(nodes, stresses(wheels[row], roads, depths, lines), strict=True):
                 section, poisson = section_of(warm.by_class[row][season].road, top, bottom)
                 stress_above = stress[:, ::-1] if upwards else stress
-                whole = Crossing(stress_above, distances, rows, x, section, upwards, poisson, len(wheels[row].x))
+                axles = len(wheels[row].x)
+                whole = Crossing(stress_above, distances, lines.y, lines.x, section, upwards, poisson, axles)
                 own_roads.append(count.after(whole, "response"))
             return own_roads
 
@@ -192,23 +196,26 @@ def grow_cracks(
     scatter, at_risk = _scatter(criterion, growth)
     growth_scatter = max(law.scatter for law in laws)
     every = max(1, round(0.008 / spacing))
-    # Where the way is done first, and its neighbours, a few of them.
+    # One place from the first crack to its full depth: where the way is done first; and others, a few of them.
     total = initiation + passes
     reached = np.isfinite(total).any(axis=1)
     last = int(np.flatnonzero(reached)[-1]) if reached.any() else 0
-    worst = int(total[last].argmin())
+    at_life = int(np.abs(places - float(life.dataset["worst_y"][number])).argmin())
+    worst, earliest = (
+        index_of_largest(-until)[0] if np.isfinite(until).any() else at_life for until in (total[last], initiation)
+    )
     keep = np.unique(np.concatenate([np.arange(worst % every, len(places), every), total.argmin(axis=1)]))
     # Laws that tell the passes of a small risk start half of the roads later.
     median = initiation * 10 ** (-scatter * at_risk)
-    sampled = drawn(median[keep], passes[:, keep], scatter, growth_scatter)
+    sampled = drawn(median[[worst]], passes[:, [worst]], scatter, growth_scatter)
     quantiles = risk_quantiles(sampled)
     offsets, _ = way.at(targets)
     fields = {
         "initiation_passes": (("y",), initiation[keep]),
         "growth_passes": (("crack_depth", "y"), total[:, keep]),
         "growth_rate": (("solved_depth", "y"), wide[:, keep]),
-        "reach_passes": (("crack_depth",), total.min(axis=1)),
-        "reach_years": (("crack_depth",), [life.traffic.years_to(float(n)) for n in total.min(axis=1)]),
+        "reach_passes": (("crack_depth",), total[:, worst]),
+        "reach_years": (("crack_depth",), [life.traffic.years_to(float(n)) for n in total[:, worst]]),
         "risk_years": (("risk", "crack_depth"), [[life.traffic.years_to(float(n)) for n in q] for q in quantiles]),
         "stress_intensity_range": (
             ("axle_class", "solved_depth", "mode"),
@@ -216,6 +223,8 @@ def grow_cracks(
         ),
         "crack_offset": (("crack_depth",), offsets),
         "worst_y": ((), places[worst]),
+        "earliest_years": ((), life.traffic.years_to(float(initiation[earliest]))),
+        "earliest_y": ((), places[earliest]),
     }
     more = {}
     if life.traffic.years is not None:

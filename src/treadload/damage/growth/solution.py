@@ -15,6 +15,8 @@ from treadload.damage.growth.options import CrackGrowth
 from treadload.rows import Row, row
 from treadload.units import years_in_words
 
+# Years that differ by less than this part are those of one place.
+_ALIKE = 0.005
 MODES = ("I", "II", "III", "Irwin")
 
 
@@ -25,7 +27,8 @@ class Growth(BaseResult, group="growth"):
     dataset, over crack_depth (m, of the tip from the mouth, the first that of initiation, the last the end of the
     layers), y (m, across the wheel path): initiation_passes (y); growth_passes (crack_depth, y), from the opening;
     growth_rate (solved_depth, y), m per pass of the whole traffic; reach_years, reach_passes (crack_depth), at the
-    place where the end, or else the most, is reached first, worst_y; risk_years (risk, crack_depth); where the road
+    one place where the end, or else the most, is reached first, worst_y; earliest_years, earliest_y, where a crack
+    starts first, which may be another place; risk_years (risk, crack_depth) at worst_y; where the road
     has a design life reach_chance (crack_depth); stress_intensity_range (axle_class, solved_depth, mode) at worst_y
     with no wander, in the season where it is largest; crack_offset (crack_depth), of a path that is not vertical.
     Where the climate asks for daily thermal stress: thermal_intensity_range (month, solved_depth), Pa √m, and what it
@@ -51,6 +54,7 @@ class Growth(BaseResult, group="growth"):
         },
         maybe={
             "reach_chance": "crack_depth",
+            "earliest_years earliest_y": "",
             "thermal_growth_rate": "solved_depth",
             "thermal_intensity_range": "month solved_depth",
         },
@@ -113,11 +117,23 @@ class Growth(BaseResult, group="growth"):
             daily = data["thermal_intensity_range"].max("solved_depth").to_numpy()
             month = str(data["month"].to_numpy()[int(daily.argmax())])
             rows.append(row("thermal_intensity_range", float(daily.max()), note=month))
-        rows.append(row("worst_y", data["worst_y"], note="first through here"))
+        rows.append(row("worst_y", data["worst_y"], note="first through here, and started here"))
+        rows += self._elsewhere()
         if self._chance is not None:
             years = f"{float(data.attrs['design_years']):g} years"
             rows.append(row("reach_chance", self._chance, note=years))
         return (*rows, row("verdict", self._verdict()))
+
+    def _elsewhere(self) -> list[Row]:
+        """Where another crack starts earlier, which is through later; none where the same is first in both."""
+        data = self.dataset
+        if "earliest_years" not in data or "earliest_y" not in data:
+            return []
+        earlier = float(data["earliest_years"])
+        if not earlier < (1 - _ALIKE) * float(data["reach_years"][0]):
+            return []
+        place = f"at y = {1e3 * float(data['earliest_y']):z.0f} mm, where it is through later"
+        return [row("earliest_years", earlier, note=place)]
 
     @property
     def _chance(self) -> float | None:
