@@ -364,7 +364,12 @@ def test_a_crack_through_the_wearing_course():
     assert growth.depths[-1] == pytest.approx(0.06)
     assert (np.diff(years) > 0).all()
     _, life = solved()
-    assert years[0] == pytest.approx(life.years("surface"), rel=1e-6)
+    assert data["earliest_years"].item() == pytest.approx(life.years("surface"), rel=1e-6)
+    # All of its stages are those of one place, which may start later.
+    at = int(np.abs(data["y"].to_numpy() - data["worst_y"].item()).argmin())
+    assert years[0] >= (1 - 1e-9) * life.years("surface")
+    np.testing.assert_allclose(data["reach_passes"], data["growth_passes"][:, at], rtol=1e-12)
+    assert data["reach_passes"][0].item() == pytest.approx(data["initiation_passes"][at].item(), rel=1e-9)
     assert (np.diff(data["risk_years"].to_numpy(), axis=0) > 0).all()
     assert growth.years_to(0.04) == pytest.approx(float(np.interp(0.04, growth.depths, years)))
     assert set(growth.risk_years_to(0.04)) == {0.05, 0.5, 0.95}
