@@ -406,6 +406,8 @@ _CLIMATE = {
 }
 
 _GROWTH = {
+    "direction_years": ("1", "years until a crack of a direction has come so deep, where it is through first"),
+    "direction_y": ("m", "place where a crack of a direction is through first"),
     "earliest_years": ("1", "years until the first crack of any place starts"),
     "earliest_y": ("m", "place where a crack starts first"),
     "crack_depth": ("m", "depth of a crack's tip from its mouth"),
@@ -677,6 +679,7 @@ _DISPLAYS_LIFE = {
     "growth_starts": Display("crack starts"),
     "crack_depth": Display("crack depth", "mm", ".1f"),
     "reach_years": Display("reached after", "", years_in_words),
+    "direction_years": Display("crack is through after", "", years_in_words),
     "earliest_years": Display("first crack elsewhere after", "", years_in_words),
     "risk_years": Display("reached after, at a risk", "", years_in_words),
     "stress_intensity_range": Display("stress intensity range", "MPa√m", ".3g"),

@@ -7,6 +7,7 @@ import json
 import math
 import time
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from scipy.special import ndtri
@@ -15,6 +16,7 @@ from treadload import variables
 from treadload.damage.climate import MONTHS
 from treadload.damage.criterion import Criterion
 from treadload.damage.growth.advance import RISKS, chances, drawn, grown, refined, risk_quantiles
+from treadload.damage.growth.directions import side_by_side
 from treadload.damage.growth.intensity import (
     CLOSE,
     Crossing,
@@ -84,6 +86,10 @@ def grow_cracks(
     growth law a length per passage; these are summed over shares and spread over the tracks of the traffic.
     Raises InputError, and ConvergenceError of a contact and of faces that do not settle.
     """
+    if growth.trace == "both":
+        ways: dict[str, CrackGrowth] = {way: replace(growth, trace=way) for way in ("transverse", "longitudinal")}
+        solve = functools.partial(grow_cracks, design, life, workers=workers, progress=progress)
+        return side_by_side({name: solve(way) for name, way in ways.items()}, growth)
     start = time.perf_counter()
     tire, road, contacts = design.tire, design.road, design.contacts
     criterion, number = _criterion(life, growth.criterion)

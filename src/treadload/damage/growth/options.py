@@ -25,7 +25,8 @@ class CrackGrowth:
     criterion: of the life whose damage 1 starts the crack: at the top of the road it grows down, at the bottom of a
     layer up. initial_length: m, of the crack then; left out, the length over which the criterion reads, which is what
     has failed, or 10 mm. law: of growth; left out, that of each layer's mix. trace: "longitudinal", "transverse", an
-    angle, rad, from travel towards the right, or left out that of the criterion's first crack. path: "vertical";
+    angle, rad, from travel towards the right, or left out that of the criterion's first crack; "both" for a
+    longitudinal and a transverse crack side by side, which start alike where the criterion's damage is 1. path: "vertical";
     "kinked", each step across the largest hoop stress; or an angle, rad, from the vertical, positive to the right of
     the trace. friction: between the faces. layers: that the crack goes through, counted from where it starts.
     steps: lengths at which its stress intensity is solved. points: along the crack at which its faces may open,
@@ -36,7 +37,7 @@ class CrackGrowth:
     criterion: str
     initial_length: float | None = None
     law: GrowthLaw | None = None
-    trace: Literal["longitudinal", "transverse"] | float | None = None
+    trace: Literal["longitudinal", "transverse", "both"] | float | None = None
     path: Path | float = "vertical"
     friction: float = 0.5
     layers: int = 1
@@ -56,8 +57,10 @@ class CrackGrowth:
                 f"the path must lean by at most {math.degrees(STEEPEST):.0f} degrees from the vertical, got "
                 f"{math.degrees(self.path):g}"
             )
-        if isinstance(self.trace, str) and self.trace not in ("longitudinal", "transverse"):
-            raise InputError(f'the trace must be "longitudinal", "transverse" or an angle, got {self.trace!r}')
+        if isinstance(self.trace, str) and self.trace not in ("longitudinal", "transverse", "both"):
+            raise InputError(
+                f'the trace must be "longitudinal", "transverse", "both" or an angle, got {self.trace!r}'
+            )
         if self.layers < 1:
             raise InputError(f"a crack goes through at least one layer, got layers = {self.layers}")
         if not 3 <= self.steps <= 40:

@@ -31,6 +31,8 @@ class Growth(BaseResult, group="growth"):
     starts first, which may be another place; risk_years (risk, crack_depth) at worst_y; where the road
     has a design life reach_chance (crack_depth); stress_intensity_range (axle_class, solved_depth, mode) at worst_y
     with no wander, in the season where it is largest; crack_offset (crack_depth), of a path that is not vertical.
+    Where both directions grow side by side, direction_years (direction, crack_depth) and direction_y (direction), the
+    rest being that of the crack which is through first.
     Where the climate asks for daily thermal stress: thermal_intensity_range (month, solved_depth), Pa √m, and what it
     adds, thermal_growth_rate (solved_depth), m per year, which growth_rate contains as shared between the passes of
     the year in which the crack starts.
@@ -55,6 +57,8 @@ class Growth(BaseResult, group="growth"):
         maybe={
             "reach_chance": "crack_depth",
             "earliest_years earliest_y": "",
+            "direction_years": "direction crack_depth",
+            "direction_y": "direction",
             "thermal_growth_rate": "solved_depth",
             "thermal_intensity_range": "month solved_depth",
         },
@@ -119,6 +123,18 @@ class Growth(BaseResult, group="growth"):
             rows.append(row("thermal_intensity_range", float(daily.max()), note=month))
         rows.append(row("worst_y", data["worst_y"], note="first through here, and started here"))
         rows += self._elsewhere()
+        if "direction_years" in data and "direction_y" in data:
+            rows += [
+                row(
+                    "direction_years", years, label=f"{name} crack is through after", note=f"at y = {1e3 * y:z.0f} mm"
+                )
+                for name, years, y in zip(
+                    data["direction"].to_numpy(),
+                    data["direction_years"].to_numpy()[:, -1],
+                    data["direction_y"].to_numpy(),
+                    strict=True,
+                )
+            ]
         if self._chance is not None:
             years = f"{float(data.attrs['design_years']):g} years"
             rows.append(row("reach_chance", self._chance, note=years))
