@@ -390,13 +390,13 @@ def test_a_crack_under_a_wheel_that_rolls_freely_grows_in_the_basin(trace, monke
 def test_both_directions_grow_side_by_side():
     both = straight("both")
     alone = {name: straight(name) for name in ("transverse", "longitudinal")}
-    years = {name: float(grown.dataset["reach_years"][-1]) for name, grown in alone.items()}
+    years = {name: float(member.dataset["reach_years"][-1]) for name, member in alone.items()}
     first = min(years, key=years.get)
     np.testing.assert_allclose(both.dataset["reach_years"], alone[first].dataset["reach_years"], rtol=1e-12)
-    for name, grown in alone.items():
+    for name, member in alone.items():
         at = both.dataset.sel(direction=name)
-        np.testing.assert_allclose(at["direction_years"], grown.dataset["reach_years"], rtol=1e-12)
-        assert at["direction_y"].item() == pytest.approx(grown.dataset["worst_y"].item())
+        np.testing.assert_allclose(at["direction_years"], member.dataset["reach_years"], rtol=1e-12)
+        assert at["direction_y"].item() == pytest.approx(member.dataset["worst_y"].item())
     labels = [row.label for row in both.rows()]
     assert {"transverse crack is through after", "longitudinal crack is through after"} <= set(labels)
     assert both.asked.trace == "both"

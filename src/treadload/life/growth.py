@@ -33,6 +33,7 @@ from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.life import Life
 from treadload.damage.thermal import passes_until
+from treadload.damage.words import DIRECTIONS
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.kernels.fracture.crack import CrackFaces
@@ -87,9 +88,8 @@ def grow_cracks(
     Raises InputError, and ConvergenceError of a contact and of faces that do not settle.
     """
     if growth.trace == "both":
-        ways: dict[str, CrackGrowth] = {way: replace(growth, trace=way) for way in ("transverse", "longitudinal")}
         solve = functools.partial(grow_cracks, design, life, workers=workers, progress=progress)
-        return side_by_side({name: solve(way) for name, way in ways.items()}, growth)
+        return side_by_side({name: solve(replace(growth, trace=name)) for name in DIRECTIONS}, growth)  # type: ignore[arg-type]
     start = time.perf_counter()
     tire, road, contacts = design.tire, design.road, design.contacts
     criterion, number = _criterion(life, growth.criterion)

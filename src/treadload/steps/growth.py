@@ -26,9 +26,9 @@ class GrowthStep(Step, name="growth"):
 
     criterion: its name; left out, the first that reads the top of the road, else the first at the bottom of a layer.
     initial_length: of the crack when the criterion's damage is 1; left out, the length that it reads over, or 10 mm.
-    law: of growth, "paris" or "from-strength"; left out, that of the layer's mix. trace: "longitudinal", "transverse",
-    "both" side by side, or an angle from travel towards the right; left out, that of the criterion's first crack. path:
-    "vertical",
+    law: of growth, "paris" or "from-strength"; left out, that of the layer's mix. trace: "longitudinal",
+    "transverse", "both" side by side, or an angle from travel towards the right; left out, that of the criterion's
+    first crack. path: "vertical",
     "kinked" for steps across the largest hoop stress, or an angle from the vertical. friction: between the crack's
     faces. layers: that it goes through, from the one where it starts. steps: depths at which its stress intensity is
     solved. points: along the crack at which its faces may touch. scatter: of log₁₀ of the passes to initiation; left

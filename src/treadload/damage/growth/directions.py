@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
 
 import numpy as np
 import xarray as xr
@@ -13,7 +12,7 @@ from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import Growth
 
 
-def side_by_side(by_direction: Mapping[str, Growth], asked: CrackGrowth) -> Growth:
+def side_by_side(by_direction: Mapping[str, Growth], growth: CrackGrowth) -> Growth:
     """The growth of the crack that is through first, with the years of each direction.
 
     by_direction: name of the direction → growth of its crack, over the same depths. Where none is ever through, the
@@ -35,4 +34,4 @@ def side_by_side(by_direction: Mapping[str, Growth], asked: CrackGrowth) -> Grow
     for key in ("contacts", "responses", "states", "jammed", "seconds"):
         stats[key] = sum(grown.stats[key] for grown in by_direction.values())
     warnings = dict.fromkeys(text for grown in by_direction.values() for text in grown.warnings)
-    return Growth(dataset, asked, stats, tuple(warnings))
+    return Growth(dataset, growth, stats, tuple(warnings))
