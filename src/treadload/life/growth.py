@@ -135,8 +135,7 @@ def grow_cracks(
 
         def cross(row: int) -> list[Crossing]:
             lines = CrackLines.of(wheels[row], y, reach)
-            roads = [warm.by_class[row][node] for node in nodes]
-            own_roads = []
+            roads, own_roads = [warm.by_class[row][node] for node in nodes], []
             for season, stress in zip(nodes, stresses(wheels[row], roads, depths, lines), strict=True):
                 section, poisson = section_of(warm.by_class[row][season].road, top, bottom)
                 stress_above = stress[:, ::-1] if upwards else stress
@@ -259,7 +258,7 @@ def grow_cracks(
         trace=trace,
         **more,
     )  # fmt: skip
-    states_solved = int(sum(crossing.stress[0, 0].size for crossing in crossings) * len(solved))
+    states_solved = len(solved) * sum(int(crossing.stress[0, 0].size) for crossing in crossings)
     stats = {
         "contacts": touched,
         "responses": len(tasks),
@@ -270,8 +269,7 @@ def grow_cracks(
     }
     caveats = cautions(doubts, jammed, states_solved, way, warm.distinct[0].road)
     caveats += at_the_end(crossings, laws, warm, growth, (top, bottom), upwards=upwards)
-    if daily is not None:
-        caveats.append(_DAILY)
+    caveats += [_DAILY] if daily is not None else []
     return Growth(dataset, growth, stats, tuple(caveats))
 
 
