@@ -62,13 +62,13 @@ def main(
 def tell(results: dict[tuple[str, str], tl.steps.Result]) -> None:
     """The table: what governs, and the load repetitions of the crack from the surface at 5, 50 and 95 % of roads."""
     print(f"{'':26s}{'governs first':24s}{'years':>7s}   surface crack, load repetitions at 5 / 50 / 95 % of roads")
-    print(f"{'':57s}   {'started':27s}{'40 mm deep':27s}")
+    print(f"{'':57s}   {'started':31s}{'40 mm deep':31s}")
     for (place, tire), result in results.items():
         life, growth = result.life, result.growth
         start, deep = (_repetitions(result, growth.risk_years_to(depth)) for depth in (growth.depths[0], DEEP))
         print(
             f"{PLACES[place] + ', ' + tire:26s}{life.governing:24s}{_years(life.years(life.governing)):>7s}   "
-            f"{start:27s}{deep:27s}"
+            f"{start:31s}{deep:31s}"
         )
 
 
