@@ -7,10 +7,11 @@ import numpy as np
 from cases import COARSE_CASE
 from treadload.case import Case
 from treadload.sweeps import Sweep, open_sweep
+from treadload.sweeps.description import about
 from treadload.sweeps.design import product
 from treadload.sweeps.gathered import gathered, with_fields
 from treadload.sweeps.record import Record
-from treadload.sweeps.store import about, begun
+from treadload.sweeps.store import begun
 from treadload.sweeps.work import Question
 
 CASE = Case.from_text(COARSE_CASE)

@@ -2,6 +2,8 @@
 
 import asyncio
 import contextlib
+import subprocess
+import sys
 
 import pytest
 
@@ -69,3 +71,16 @@ def test_who_leaves_while_a_process_starts_leaves_it_to_the_next(tmp_path):
         await asyncio.sleep(0.1)
 
     asyncio.run(asyncio.wait_for(tried(), 120))
+
+
+def test_a_process_whose_page_is_gone_ends_whatever_its_threads_do():
+    """One of twenty that were solving stayed for ever at the end of Python when the page was killed."""
+    text = (
+        "import threading, time; from treadload.app import engine\n"
+        "engine.warm = lambda: None\n"
+        "threading.Thread(target=time.sleep, args=(3600,)).start()\n"
+        "engine.main()\n"
+    )
+    ran = subprocess.run([sys.executable, "-c", text], stdin=subprocess.DEVNULL, capture_output=True, timeout=300)
+    assert ran.returncode == 0
+    assert b'"warm": true' in ran.stdout

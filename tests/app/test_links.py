@@ -122,3 +122,20 @@ def test_what_a_killed_server_left_is_removed_by_the_next(temporary, port):
     assert young.folder.exists()
     assert running.folder.exists()
     assert strange.exists()
+
+
+def test_an_interruption_leaves_no_folder(port, temporary, monkeypatch):
+    from treadload.app import server
+
+    def stopped(*_, **__):
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        # While the folder is made, and between that and the first request.
+        patch.setattr(module, "_write_private", stopped)
+        with pytest.raises(KeyboardInterrupt):
+            begun(port)
+    monkeypatch.setattr(server, "Engines", stopped)
+    with pytest.raises(KeyboardInterrupt):
+        server.run("127.0.0.1", 0, open_browser=False)
+    assert not list(temporary.glob("treadload-app-*"))

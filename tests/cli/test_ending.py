@@ -250,3 +250,16 @@ main()
     assert (done.returncode, done.stdout) == (130, "")
     assert done.stderr.startswith("error: interrupted; no file was changed")
     assert done.stderr.count("\n") == 1
+
+
+@posix
+def test_an_interruption_in_an_executed_text_ends_with_the_code_all_the_same(tmp_path):
+    """As of SIGTERM while classes of data are loaded: `python -m` would remember it and end by SIGINT."""
+    (tmp_path / "command.py").write_text(
+        "import os, signal; from treadload.cli import ending\n"
+        "with ending.orderly():\n"
+        "    exec('os.kill(os.getpid(), signal.SIGTERM); [None for _ in range(10**6)]')\n"
+    )
+    command = [sys.executable, "-m", "command"]
+    ran = subprocess.run(command, capture_output=True, text=True, check=False, cwd=tmp_path)
+    assert (ran.returncode, ran.stderr.count("error: interrupted; ")) == (143, 1)

@@ -33,6 +33,8 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | results | 10 | 0 to 10 000, the same | 5: dimensions in another order, depths all one, two of the attack itself |
 | results | 11 | 0 to 10 000, in two shares | 2, both of the attack itself |
 | results | 12 | 0 to 3 000 | 0 |
+| stores | 1 | 0 to 100 | 0, after checksums of all files; 58 of an older form of the attack before |
+| stores | 2 | 0 to 300 | 0 |
 | random_lives | 1 | 0 to 10 | 1: wheels half a cell off the lattice moved apart with the cells beside them |
 | random_lives | 1 | 0 to 1 000 | 0, and no warning of a border |
 """
@@ -64,6 +66,7 @@ KINDS = (
     "contacts",
     "solved",
     "solved_lives",
+    "stores",
     "random_lives",
 )
 _BATCH = 200

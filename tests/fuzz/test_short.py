@@ -20,6 +20,7 @@ from fuzz.runner import attack_of, run
         ("laser", 200),
         pytest.param("fringes", 40, marks=pytest.mark.slow),
         ("contacts", 40),
+        pytest.param("stores", 30, marks=pytest.mark.slow),
     ],
 )
 def test_nothing_breaks(kind, count):

@@ -22,6 +22,7 @@ from treadload.results import to_tree
 from treadload.steps import run
 from treadload.sweeps import open_sweep, places
 from treadload.sweeps import store as stores
+from treadload.sweeps.manifest import sealed
 
 zarr = pytest.importorskip("zarr")
 VARY = {"modulus": [1e9, 2e9, 4e9], "poisson": [0.25, 0.35]}
@@ -154,7 +155,8 @@ def test_another_study_is_refused(tmp_path):
         tl.sweep(case, {"poisson": [0.3]}, store=path)
     assert (path / ".records.jsonl").read_bytes() == before
     told = json.loads((path / "study.json").read_text())
-    (path / "study.json").write_text(json.dumps({**told, "version": "0.0.1", "name": "x"}))
+    del told["check"]
+    (path / "study.json").write_text(sealed({**told, "version": "0.0.1", "name": "x"}))
     with pytest.raises(InputError, match=r"treadload 0\.0\.1 began it"):
         tl.sweep(case, {"poisson": [0.3]}, store=path)
 

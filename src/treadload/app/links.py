@@ -48,11 +48,17 @@ class Links:
     def begin(cls, host: str, port: int, address: str) -> Links:
         """The folder of a server that begins, which only its user can read."""
         _sweep()
-        folder = Path(tempfile.mkdtemp(prefix=_PREFIX))
-        (folder / _LINKS).mkdir(mode=0o700)
-        about = {"host": host, "port": port, "address": address, "pid": os.getpid()}
-        _write_private(folder / _ABOUT, json.dumps(about))
-        return cls(folder, address)
+        links = cls(Path(tempfile.gettempdir()) / f"{_PREFIX}{secrets.token_hex(8)}", address)
+        # Whatever comes between, an interruption too, leaves no folder.
+        try:
+            links.folder.mkdir(mode=0o700)
+            (links.folder / _LINKS).mkdir(mode=0o700)
+            about = {"host": host, "port": port, "address": address, "pid": os.getpid()}
+            _write_private(links.folder / _ABOUT, json.dumps(about))
+        except BaseException:
+            links.end()
+            raise
+        return links
 
     def new(self) -> str:
         """An address that opens the page to one visit."""

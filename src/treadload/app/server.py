@@ -55,6 +55,13 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
     """Serve until interrupted."""
     port = free_port(host, port)
     links = Links.begin(host, port, address_of(host, port))
+    try:
+        _run(host, port, links, open_browser=open_browser)
+    finally:
+        links.end()
+
+
+def _run(host: str, port: int, links: Links, *, open_browser: bool) -> None:
     engines = Engines()
     sessions = Sessions(engines, links.folder)
     keys = Keys(host, port, links.use, sessions.end, _is_connected)
@@ -80,10 +87,7 @@ def run(host: str, port: int, *, open_browser: bool) -> None:
 
     app.on_startup(ready)
     app.on_shutdown(over)
-    try:
-        _serve(host, port)
-    finally:
-        links.end()
+    _serve(host, port)
 
 
 def _is_connected(page: str) -> bool:

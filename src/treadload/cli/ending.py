@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import collections
 import contextlib
 import io
 import os
@@ -67,7 +68,18 @@ def orderly() -> Iterator[None]:
     if lost is not None:
         say(f"error: what was printed could not be written: {lost.strerror or lost}\n", sys.stderr)
         status = status or FAILED
+    _forget()
     raise SystemExit(status)
+
+
+def _forget() -> None:
+    """Let Python end with the status that it is given.
+
+    An interruption in a text that is executed, as classes of data and named tuples make them while they are loaded,
+    is remembered though it was caught, and the process would end by SIGINT; the next text, here of a
+    tuple, resets that.
+    """
+    collections.namedtuple("Nothing", "")
 
 
 def _prepare() -> None:

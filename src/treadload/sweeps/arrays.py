@@ -81,7 +81,7 @@ def keep_fields(record: Record, folder: Path) -> None:
     dims = json.dumps({name: [dims, np.shape(array)] for name, (dims, array) in record.fields.items()})
     # An archive that cannot be closed on a full disk would complain later, from nowhere.
     content = io.BytesIO()
-    np.savez(content, dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
+    np.savez(content, number=np.array(record.number), dims=np.array(dims), **values, **axes)  # type: ignore[arg-type]
     write_whole(_file(folder, record.number), content.getvalue(), sync=False)
 
 
@@ -163,16 +163,25 @@ def _file(folder: Path, number: int) -> Path:
     return folder / f"{number}.npz"
 
 
+def damaged_fields(files: Mapping[int, Path]) -> list[int]:
+    """Numbers of cases whose file is damaged. files: by number of the case."""
+    return [number for number, file in files.items() if _fields_of(number, file) is None]
+
+
 def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record | None:
-    """What a file of a case holds; None where it is damaged."""
+    """What a file of a case holds; None where it is damaged or another case's."""
     try:
-        with np.load(file, allow_pickle=False) as archive:
+        # What is no archive would leave a file open that numpy opens itself.
+        with file.open("rb") as stream, np.load(stream, allow_pickle=False) as archive:
+            if int(archive["number"]) != number:
+                return None
             dims = json.loads(str(archive["dims"]))
             coordinates = {name[5:]: archive[name] for name in archive.files if name.startswith("axis ")}
             fields = {
                 name: (tuple(names), np.broadcast_to(np.nan, shape) if shapes_only else archive[f"field {name}"])
                 for name, (names, shape) in dims.items()
             }
-    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, LookupError, TypeError, NotImplementedError):
+    except (zipfile.BadZipFile, zlib.error, EOFError, ValueError, LookupError, TypeError, NotImplementedError,
+            AttributeError, OSError, RuntimeError, MemoryError):  # fmt: skip
         return None
     return Record(number, 0.0, fields=fields, coordinates=coordinates)

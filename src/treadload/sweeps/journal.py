@@ -30,7 +30,8 @@ class Journal:
     """What a journal holds.
 
     records: by number of the case, the last of each. end: bytes up to the end of the last good line. crc: checksum of
-    these bytes. damaged: numbers of damaged lines, from 1. lost: cases on them.
+    these bytes. damaged: numbers of damaged lines, from 1. lost: cases on them, or behind its end. fields: cases
+    that have fields.
     """
 
     path: Path
@@ -39,6 +40,7 @@ class Journal:
     crc: int = 0
     damaged: tuple[int, ...] = ()
     lost: int = 0
+    fields: set[int] = field(default_factory=set)
 
     def damage(self, missing: int, *, repaired: bool = False) -> str:
         """A sentence on the damaged lines, "" without any that matter. missing: cases of the study without a record.
@@ -46,16 +48,18 @@ class Journal:
         repaired: True once these cases have been solved again.
         """
         lost = min(self.lost, missing)
-        if not self.damaged or not lost:
+        if not lost:
             return ""
-        several, first = len(self.damaged) > 1, ", ".join(map(str, self.damaged[:_LISTED]))
-        more = f" and {len(self.damaged) - _LISTED} more" if len(self.damaged) > _LISTED else ""
         cases = "1 case" if lost == 1 else f"{lost} cases"
         again = (
             f"{cases} {'was' if lost == 1 else 'were'} solved again"
             if repaired
             else f"the same command solves {cases} again"
         )
+        if not self.damaged:
+            return f"the journal {self.path} has lost its end: {again}; check the disk that the study is on"
+        several, first = len(self.damaged) > 1, ", ".join(map(str, self.damaged[:_LISTED]))
+        more = f" and {len(self.damaged) - _LISTED} more" if len(self.damaged) > _LISTED else ""
         return (
             f"line{'s' if several else ''} {first}{more} of the journal {self.path} {'are' if several else 'is'} "
             f"damaged and left out: {again}; check the disk that the study is on"
@@ -78,9 +82,10 @@ def read_journal(path: Path, count: int) -> Journal:
         with path.open("rb") as stream:
             for number, line in enumerate(stream, start=1):
                 at, crc = at + len(line), zlib.crc32(line, crc)
-                record = _record(line, count)
+                record, has_fields = _record(line, count)
                 if record is not None:
                     journal.records[record.number] = record
+                    (journal.fields.add if has_fields else journal.fields.discard)(record.number)
                     journal.end, journal.crc = at, crc
                 elif line.endswith(b"\n"):
                     wrong.append(number)
@@ -109,8 +114,8 @@ def checksum(path: Path) -> tuple[int, int]:
     return size, crc
 
 
-def _record(line: bytes, count: int) -> Record | None:
-    """The record of a line; None for a damaged one."""
+def _record(line: bytes, count: int) -> tuple[Record | None, bool]:
+    """The record of a line, None for a damaged one, and whether its case has fields."""
     check = _CHECK.search(line, max(0, len(line) - 22))
     try:
         if check is None:
@@ -122,5 +127,7 @@ def _record(line: bytes, count: int) -> Record | None:
             content = json.loads(body) if good else None
         record = Record.from_json(content) if good else None
     except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
-        return None
-    return record if record is not None and 0 <= record.number < count else None
+        return None, False
+    if record is None or not 0 <= record.number < count:
+        return None, False
+    return record, bool(content.get("fields"))

@@ -2,41 +2,60 @@
 
 Every record is a line of the journal, `.records.jsonl`, as soon as its case ends. The arrays of the group are made of
 the journal, of the numbers again and again, of the fields when the study stops: until then each case's fields wait in
-a file of their own in `.fields`. `.current` says of which journal the arrays are made; while that is the journal,
-nothing else has to be read.
+a file of their own in `.fields`. `.current`, the mark, says of which journal the arrays are made, and the size and
+checksum of their files; while these are as they were, no record has to be read. What is damaged is made again of
+the journal; cases whose fields are lost are solved again.
 """
 
 from __future__ import annotations
 
 import contextlib
 import errno
-import hashlib
 import importlib.util
-import json
 import os
 import shutil
 import time
 import warnings
 import zlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import xarray as xr
 
-from treadload._version import __version__
 from treadload.case import Case
-from treadload.errors import InputError, WriteError, one_line
+from treadload.errors import InputError, WriteError
 from treadload.files import write_whole
-from treadload.sweeps.arrays import keep_fields, restore_fields, write_arrays, write_fields, zarr
+from treadload.sweeps.arrays import damaged_fields, keep_fields, restore_fields, write_arrays, write_fields, zarr
+from treadload.sweeps.description import (
+    STUDY,
+    about,
+    check_same,
+    fingerprint,
+    is_whole,
+    read_description,
+    write_description,
+)
 from treadload.sweeps.design import Design
 from treadload.sweeps.gathered import gathered, label_of
 from treadload.sweeps.journal import Journal, checksum, line_of, read_journal
+from treadload.sweeps.manifest import (
+    CURRENT,
+    Mark,
+    clear_arrays,
+    damaged,
+    lost_fields,
+    manifest,
+    read_mark,
+)
 from treadload.sweeps.record import Record
 from treadload.sweeps.work import Question
 
 SUFFIX = ".zarr"
-_STUDY, _JOURNAL, _FIELDS, _CURRENT = "study.json", ".records.jsonl", ".fields", ".current"
+_JOURNAL, _FIELDS = ".records.jsonl", ".fields"
+# Cases that a sentence lists.
+_LISTED = 5
 # The arrays are brought up to date so often, s, and never for more than this share of the time.
 _OFTEN, _SHARE = 5.0, 0.03
 _DAMAGED = "what was kept of its fields is damaged; the same command solves it again, check the disk of the study"
@@ -55,15 +74,57 @@ class Store:
         self.finished, self.repaired = False, ""
         self._journal: Any = None
         self._kept = Journal(path / _JOURNAL)
+        self._mark, self._seen = Mark(name), dict[str, tuple[int, int, int]]()
         self._written, self._cost, self._dirty = 0.0, 0.0, True
 
-    def read(self, journal: Journal, *, current: bool) -> None:
-        """Go on from a journal. current: True if the arrays are made of it."""
-        self._kept, self._dirty = journal, not current
-        self.repaired = journal.damage(self.design.count - len(journal.records), repaired=True)
+    def read(self, mark: Mark | None, wrong: Sequence[str]) -> None:
+        """Go on from a journal. mark: of the arrays, None for none. wrong: their damaged files."""
+        journal = self._kept = read_journal(self.path / _JOURNAL, self.design.count)
+        state = (journal.end, journal.crc)
+        self._dirty = mark is None or mark.journal != state or bool(wrong)
         # Failures are tried again: a machine, a limit or the program may be another today.
         faults = self.design.faults
         self.records = {n: record for n, record in journal.records.items() if record.failure is None or n in faults}
+        if mark is not None:
+            journal.lost = max(journal.lost, mark.done - len(self.records))
+        said = wrong if mark is not None and mark.journal is not None else ()
+        self.repaired = "; ".join(
+            text
+            for text in (
+                self.repaired,
+                journal.damage(self.design.count - len(journal.records), repaired=True),
+                _unmarked(self.path, journal, mark, said, repaired=True),
+                self._mend_fields(mark, wrong),
+            )
+            if text
+        )
+
+    def _mend_fields(self, mark: Mark | None, wrong: Sequence[str]) -> str:
+        """Forget the cases whose fields are lost, and remove damaged arrays. Returns a sentence, "" if none are."""
+        files = self._files()
+        bad = damaged_fields(files)
+        for number in bad:
+            files.pop(number).unlink()
+        columns = {*(mark.names if mark else ()), "status", "seconds", *self.design.coordinates(), *self.design.dims}
+        lost = None if mark is None else lost_fields(self.path, self.design.shape, wrong, columns)
+        kept = frozenset[int]() if mark is None or lost is None else mark.fields - lost
+        if mark is None or (wrong and not kept):
+            clear_arrays(self.path)
+        elif wrong:
+            clear_arrays(self.path, wrong, columns)
+        self._mark = replace(mark or self._mark, fields=kept)
+        if mark is None:
+            with self.writing():
+                self._keep_mark(self._mark)
+        again = sorted((self._kept.fields & set(self.records)) - kept - set(files))
+        for number in again:
+            del self.records[number]
+        return _lost_in_words(again, self.design, self.path) if again else ""
+
+    def _files(self) -> dict[int, Path]:
+        """Files of the fields of cases, by number."""
+        files = {int(file.stem): file for file in (self.path / _FIELDS).glob("*.npz") if file.stem.isdecimal()}
+        return {number: file for number, file in sorted(files.items()) if number in self.records}
 
     def append(self, record: Record) -> None:
         """Keep a record. Raises WriteError where the disk is full."""
@@ -89,18 +150,23 @@ class Store:
         began = time.monotonic()
         data = self.numbers()
         self._kept.records = self.records
-        current = {
-            "journal": [self._kept.end, self._kept.crc],
-            "done": sum(record.failure is None or n in self.design.faults for n, record in self.records.items()),
-            "names": _names(self._kept, self.design),
-        }
+        mark = replace(
+            self._mark,
+            journal=(self._kept.end, self._kept.crc),
+            done=sum(record.failure is None or n in self.design.faults for n, record in self.records.items()),
+            names=tuple(_names(self._kept, self.design)),
+        )
         with self.writing():
-            # Whoever finds no mark reads the journal.
-            write_whole(self.path / _CURRENT, '{"journal": null}', sync=False)
+            # Whoever finds a mark without a journal reads the journal.
+            self._keep_mark(replace(self._mark, journal=None))
             write_arrays(data, self.path)
-            write_whole(self.path / _CURRENT, json.dumps(current), sync=False)
+            self._keep_mark(replace(mark, files=manifest(self.path, self._seen)))
         self._written = time.monotonic()
         self._cost, self._dirty = self._written - began, False
+
+    def _keep_mark(self, mark: Mark) -> None:
+        write_whole(self.path / CURRENT, mark.text(), sync=False)
+        self._mark = mark
 
     def numbers(self) -> xr.Dataset:
         """The numbers of all records."""
@@ -109,23 +175,34 @@ class Store:
         data = gathered(self.design, records).assign_attrs(about(self.case, self.design, self.question))
         return data.assign_attrs(damage=damage) if damage else data
 
-    def write_fields(self) -> None:
-        """Put the fields of all cases into arrays over common places; their files go when every case was tried."""
-        folder = self.path / _FIELDS
-        files = {int(file.stem): file for file in folder.glob("*.npz")}
-        files = {number: file for number, file in sorted(files.items()) if number in self.records}
+    def close(self) -> None:
+        """Bring all arrays up to date. Raises WriteError where the disk is full."""
+        try:
+            self._write_fields()
+        finally:
+            self.write_numbers()
+        # Not before the mark says that the arrays have them.
+        if (self.path / _FIELDS).exists() and len(self.records) == self.design.count:
+            shutil.rmtree(self.path / _FIELDS)
+
+    def _write_fields(self) -> None:
+        """Put the fields of all cases into arrays over common places."""
+        files = self._files()
         if not files:
             return
+        folder, self._dirty = self.path / _FIELDS, True
         with self.writing():
             numbers = {label_of(name, self.design) for record in self.records.values() for name in record.numbers}
             solved = {number for number, record in self.records.items() if record.failure is None}
-            files |= restore_fields(self.path, self.design, sorted(solved - set(files)), numbers, folder)
+            behind = sorted((solved & self._mark.fields) - set(files))
+            files |= restore_fields(self.path, self.design, behind, numbers, folder)
+            # From here on they are in the files alone.
+            self._keep_mark(replace(self._mark, journal=None, fields=frozenset()))
             damaged = write_fields(self.path, self.design, dict(sorted(files.items())))
             for number in damaged:
-                files[number].unlink()
+                files.pop(number).unlink()
                 self.append(Record(number, 0.0, failure=_DAMAGED))
-            if len(self.records) == self.design.count:
-                shutil.rmtree(folder)
+            self._mark = replace(self._mark, fields=frozenset(files))
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[None]:
@@ -158,35 +235,37 @@ def begun(path: str | os.PathLike[str], case: Case, design: Design, question: Qu
     name = fingerprint(case, design, question)
     store = Store(path, case, design, question, name)
     with _locked(path):
-        if (path / _STUDY).exists():
-            _check_same(path, name)
+        mark = read_mark(path)
+        # A damaged description is written anew if the mark is that of this study.
+        if mark is not None and mark.study == name and not is_whole(path):
+            store.repaired = f"the description of the study, {path / STUDY}, was damaged and is written anew"
+            with store.writing():
+                write_description(path, case, design, question, name)
+        elif (path / STUDY).exists():
+            check_same(path, name)
         elif any(file.name != ".lock" for file in path.iterdir()):
             raise InputError(f"{path} exists and is no study; give another name, or remove it")
         else:
             with store.writing():
                 _write_study(path, case, design, question, name)
-        current = _current(path)
+        wrong = [] if mark is None else damaged(path, mark.files)
         # Fields that wait are put together first.
-        whole = current.get("done") == design.count and not (path / _FIELDS).exists()
-        if whole and current["journal"] == list(checksum(path / _JOURNAL)):
+        whole = mark is not None and mark.done == design.count and not wrong and not (path / _FIELDS).exists()
+        if mark is not None and whole and mark.journal == checksum(path / _JOURNAL):
             store.finished = True
             yield store
             return
-        journal = read_journal(path / _JOURNAL, design.count)
-        store.read(journal, current=current.get("journal") == [journal.end, journal.crc])
+        store.read(mark, wrong)
         with contextlib.ExitStack() as stack:
             with store.writing():
                 # A buffer would be written once more when it is closed, on the same full disk.
                 stream = stack.enter_context((path / _JOURNAL).open("ab", buffering=0))
-                stream.truncate(journal.end)
+                stream.truncate(store._kept.end)
             store._journal = stream
             try:
                 yield store
             finally:
-                try:
-                    store.write_fields()
-                finally:
-                    store.write_numbers()
+                store.close()
 
 
 def opened(path: str | os.PathLike[str]) -> tuple[xr.Dataset, Case, str]:
@@ -196,36 +275,63 @@ def opened(path: str | os.PathLike[str]) -> tuple[xr.Dataset, Case, str]:
     """
     zarr()
     path = Path(path)
-    study = _study(path)
+    study = read_description(path)
     try:
         case = Case.from_text(study["case"], folder=path / study["folder"], name=f"the case of {path}")
         design = Design.from_json(study["design"], case)
     except (KeyError, TypeError) as error:
         raise InputError(f"{path} cannot be read as a study: {type(error).__name__}: {error}") from error
-    current, journal = _current(path), None
-    arrays = _arrays(path)
-    if not current:
-        # Of a store that was begun without a mark.
-        journal = read_journal(path / _JOURNAL, design.count)
-        if "status" in arrays and int((arrays["status"] != 0).sum()) == len(journal.records):
-            current = {"journal": list(checksum(path / _JOURNAL)), "names": _names(journal, design)}
-    if "status" in arrays and current.get("journal") == list(checksum(path / _JOURNAL)):
-        return _in_order(arrays, current["names"]), case, str(path)
-    # Killed before the arrays were last made, or their journal has become another.
-    journal = journal or read_journal(path / _JOURNAL, design.count)
+    mark, wrong = read_mark(path), list[str]()
+    if mark is not None and mark.journal == checksum(path / _JOURNAL):
+        wrong = damaged(path, mark.files)
+        if not wrong:
+            return _in_order(_arrays(path), mark.names), case, str(path)
+        # A study that goes on may have changed them in the meantime.
+        wrong = wrong if read_mark(path) == mark else []
+    # Killed before the arrays were last made, or the arrays or their journal have become others.
+    journal = read_journal(path / _JOURNAL, design.count)
+    if mark is not None and read_mark(path) == mark:
+        done = sum(record.failure is None or n in design.faults for n, record in journal.records.items())
+        journal.lost = max(journal.lost, mark.done - done)
     data = gathered(design, sorted(journal.records.values(), key=lambda record: record.number))
-    damage = journal.damage(design.count - len(journal.records))
-    data = data.assign_attrs(about(case, design, None) | ({"damage": damage} if damage else {}))
+    damage = [journal.damage(design.count - len(journal.records)), _unmarked(path, journal, mark, wrong)]
+    said = "; ".join(text for text in damage if text)
+    data = data.assign_attrs(about(case, design, None) | ({"damage": said} if said else {}))
     return _in_order(data, _names(journal, design)), case, str(path)
 
 
 def _arrays(path: Path) -> xr.Dataset:
-    """The arrays of a store, read when they are used; none where it was killed before they were first made."""
-    with warnings.catch_warnings(), contextlib.suppress(Exception):
+    """The arrays of a store, read when they are used."""
+    with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         data: xr.Dataset = xr.open_zarr(path, chunks=None, consolidated=False, decode_times=False)
         return data
-    return xr.Dataset()
+
+
+def _unmarked(
+    path: Path, journal: Journal, mark: Mark | None, wrong: Sequence[str], *, repaired: bool = False
+) -> str:
+    """A sentence where the arrays cannot be trusted, "" where they can or none were made."""
+    if wrong:
+        more = f" and {len(wrong) - 1} more" if len(wrong) > 1 else ""
+        why = f"arrays of {path} are damaged or missing ({wrong[0]}{more})"
+    elif mark is None and journal.records:
+        why = f"{path / CURRENT}, which vouches for the arrays, is damaged or missing"
+    else:
+        return ""
+    if repaired:
+        return f"{why}: they were made again of the journal; check the disk that the study is on"
+    return f"{why}: numbers are read from the journal, without fields; the same command makes the arrays again"
+
+
+def _lost_in_words(numbers: Sequence[int], design: Design, path: Path) -> str:
+    listed = "; ".join(f"{number} ({design.words_of(number)})" for number in numbers[:_LISTED])
+    more = f" and {len(numbers) - _LISTED} more" if len(numbers) > _LISTED else ""
+    cases = "1 case" if len(numbers) == 1 else f"{len(numbers)} cases"
+    return (
+        f"fields of {cases} in {path} were damaged or missing, number {listed}{more}: "
+        f"{'it was' if len(numbers) == 1 else 'they were'} solved again"
+    )
 
 
 def _names(journal: Journal, design: Design) -> list[str]:
@@ -239,40 +345,6 @@ def _in_order(data: xr.Dataset, names: Sequence[str]) -> xr.Dataset:
     """Arrays with the state of every case first, then its numbers, then fields."""
     first = [name for name in ("status", "seconds", *names) if name in data]
     return data[[*first, *(name for name in data.data_vars if name not in first)]]
-
-
-def fingerprint(case: Case, design: Design, question: Question) -> str:
-    """What tells studies apart: case, files that it reads, design, fields, version."""
-    table = case.as_tables()
-    content = [__version__, table, design.to_json(), [reading.text for reading in question.selectors]]
-    digest = hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode())
-    for value in _texts(table):
-        file = case.folder / value
-        with contextlib.suppress(OSError, ValueError):
-            if file.is_file():
-                digest.update(hashlib.sha256(file.read_bytes()).digest())
-    return digest.hexdigest()[:16]
-
-
-def about(case: Case, design: Design, question: Question | None) -> dict[str, Any]:
-    """What a study says of itself, as attributes of its dataset."""
-    return {
-        "title": case.title,
-        "case": case.to_toml(),
-        "cases": design.count,
-        "design": json.dumps(design.to_json(), ensure_ascii=False),
-        "treadload_version": __version__,
-        **({} if question is None else {"asked": json.dumps([reading.text for reading in question.selectors])}),
-    }
-
-
-def _texts(value: object) -> Iterator[str]:
-    if isinstance(value, str):
-        if len(value) < 4096:
-            yield value
-    elif isinstance(value, Mapping | list | tuple):
-        for item in value.values() if isinstance(value, Mapping) else value:
-            yield from _texts(item)
 
 
 def _checked(path: str | os.PathLike[str]) -> Path:
@@ -321,51 +393,6 @@ def _clear(path: Path) -> None:
 
 
 def _write_study(path: Path, case: Case, design: Design, question: Question, name: str) -> None:
-    content = {
-        "treadload_study": 1,
-        "version": __version__,
-        "name": name,
-        "case": case.to_toml(),
-        "folder": os.path.relpath(case.folder.resolve(), path.resolve()),
-        "design": design.to_json(),
-        "asked": [reading.text for reading in question.selectors],
-    }
-    write_whole(path / _STUDY, json.dumps(content))
+    write_description(path, case, design, question, name)
     # So that it opens before the first case has ended.
     write_arrays(gathered(design, ()).assign_attrs(about(case, design, question)), path)
-
-
-def _current(path: Path) -> dict[str, Any]:
-    """Of which journal the arrays are made; empty where nothing says it."""
-    try:
-        state = json.loads((path / _CURRENT).read_text(encoding="utf-8"))
-        return {"journal": list(state["journal"] or ()), "done": int(state["done"]), "names": list(state["names"])}
-    except FileNotFoundError:
-        return {}
-    except (OSError, ValueError, LookupError, TypeError, RecursionError):
-        # Being made, or damaged: then the journal tells.
-        return {"journal": []}
-
-
-def _study(path: Path) -> dict[str, Any]:
-    try:
-        study = json.loads((path / _STUDY).read_text(encoding="utf-8"))
-        if not isinstance(study, dict) or study.get("treadload_study") != 1:
-            raise ValueError("another kind of file")
-    except (OSError, ValueError, RecursionError) as error:
-        raise InputError(
-            f"{path} is no study that `treadload sweep` has written: {one_line(str(error))[:200]}"
-        ) from error
-    return study
-
-
-def _check_same(path: Path, name: str) -> None:
-    study = _study(path)
-    if study.get("name") != name:
-        version = study.get("version")
-        why = (
-            f"treadload {version} began it, and this is {__version__}"
-            if version != __version__
-            else "its case, its files, what is varied or what is kept differ"
-        )
-        raise InputError(f"{path} holds another study: {why}; give another name with -o, or remove the folder")

@@ -19,12 +19,13 @@ from treadload.composing import BaseResult, Holds
 from treadload.errors import InputError, WorkersLost, positive
 from treadload.rows import Row, row
 from treadload.sweeps.cluster import SchedulerLost, cluster
+from treadload.sweeps.description import about
 from treadload.sweeps.design import Design, from_dataset, listed, product
 from treadload.sweeps.gathered import FAILED, SOLVED, UNSOLVED, gathered, with_fields
 from treadload.sweeps.places import Task, check_guard, here, processes, threads
 from treadload.sweeps.record import Record
 from treadload.sweeps.selection import check_varied, selectors_for
-from treadload.sweeps.store import Store, about, begun, opened
+from treadload.sweeps.store import Store, begun, opened
 from treadload.sweeps.work import TANGENTIAL, Question
 from treadload.variables import SCALES, VARIABLES, Display, display_of
 
