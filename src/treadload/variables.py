@@ -338,6 +338,8 @@ _BASINS = {
     ),
     "modulus_at_reference": ("Pa", "fitted modulus at the reference temperature, by the mix of the layer"),
     "layer_thickness": ("m", "thickness of a layer, infinite for a half-space, 0 where it is absent"),
+    "layer_poisson": ("1", "Poisson's ratio of a layer"),
+    "bond_stiffness": ("Pa/m", "stiffness of the bond of a layer to the one below, infinite where bonded"),
     "unknown_at_bound": ("1", "-1 at the lower bound, 1 at the upper one, else 0"),
     "unknown_correlation": ("1", "correlation of the logarithms of two unknowns"),
     "basin_misfit": ("1", "root mean square of fitted less measured deflections, over the measured ones"),

@@ -7,6 +7,8 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from treadload.case.fitted import with_fitted_road
+from treadload.case.road import RoadPart
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.life.reliability.inputs import inputs_of
@@ -14,6 +16,7 @@ from treadload.roads import Basins, backcalculate
 from treadload.roads.model import models, thicknesses
 from treadload.roads.parts import PART
 from treadload.roads.unknowns import layer_names, pose
+from treadload.steps import ReliabilityStep
 
 OFFSETS = np.array([0, 0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5, 1.8])
 LOAD, RADIUS = 50e3, 0.15
@@ -368,3 +371,27 @@ def test_an_undecided_modulus_does_not_scatter():
     result = backcalculate(basins(bowl((3e9, 3e8, 7e7), (0.01, 0.3))), thin, error="5 %")
     with pytest.raises(InputError, match=r"leaves the modulus of asphalt undecided.*give a prior"):
         result.scatter(0)
+
+
+def test_a_design_case_takes_its_road_and_scatter_from_a_station(tmp_path):
+    rng = np.random.default_rng(6)
+    drawn = np.vstack([BOWL * (1 + 0.02 * rng.standard_normal(9)), 0 * BOWL])
+    result = backcalculate(basins(drawn, station=("km 1.2", "km 1.3")), ROAD, error="2 %")
+    tl.save_results(result, tmp_path / "moduli.nc")
+    tables = {"pavement": {"from": "moduli.nc#km 1.2"}, "reliability": {"thickness": 0.0, "fatigue": 0.25}}
+    expanded = with_fitted_road(tables, tmp_path)
+    part = RoadPart.model_validate(expanded["pavement"])
+    assert part.untempered() == result.road("km 1.2")
+    scatter = ReliabilityStep.model_validate(expanded["reliability"]).build()
+    assert scatter.moduli == pytest.approx(dict(result.scatter(0).moduli))
+    assert scatter.modulus_correlation == result.scatter(0).modulus_correlation
+    for source, words in (
+        ("moduli.nc#km 1.4", "no station 'km 1.4'; did you mean"),
+        ("moduli.nc#km 1.3", "station km 1.3 was refused"),
+        ("other.nc#km 1.2", "there is no file"),
+        ("moduli.nc", "a file and a station"),
+    ):
+        with pytest.raises(InputError, match=words):
+            with_fitted_road({"pavement": {"from": source}}, tmp_path)
+    with pytest.raises(InputError, match=r"in place of pavement\.layers"):
+        tl.Case.from_dict({"pavement": {"from": "moduli.nc#km 1.2", "layers": []}}, folder=tmp_path)

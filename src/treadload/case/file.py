@@ -11,6 +11,7 @@ import tomli_w
 from pydantic import Field, ValidationError
 
 from treadload.case.changes import changed
+from treadload.case.fitted import with_fitted_road
 from treadload.errors import InputError
 from treadload.files import parse_toml, text_of
 from treadload.read import Table, in_words
@@ -33,7 +34,11 @@ class FilePart(Table):
         if "folder" in table:
             raise InputError(f"{name}: unknown key 'folder'; paths start from the folder of the file")
         try:
-            return cls.model_validate({**table, "folder": Path(folder)})
+            tables = with_fitted_road(table, Path(folder))
+        except InputError as error:
+            raise InputError(f"{name}: {error}") from error
+        try:
+            return cls.model_validate({**tables, "folder": Path(folder)})
         except ValidationError as error:
             raise InputError(f"{name}: {in_words(error)}") from error
 

@@ -13,7 +13,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import qmc
 
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.roads.model import BasinModel
@@ -109,6 +108,9 @@ def _starts(model: BasinModel, target: Target) -> Array:
     low = np.where(informed, np.maximum(low, target.centre - 2 * target.width), low)
     high = np.where(informed, np.minimum(high, target.centre + 2 * target.width), high)
     high = np.maximum(high, low)
+    # Loads slowly, and whoever only reads a case has no use for it.
+    from scipy.stats import qmc
+
     library = low + (high - low) * qmc.Sobol(p, rng=np.random.default_rng(1)).random(_LIBRARY)
     geometry = (
         np.stack([slab.t[4][:, 0, len(model.plate.nodes) // 2] for slab in model.columns.slabs], axis=1)

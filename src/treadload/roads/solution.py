@@ -20,6 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins
+from treadload.roads.scatter import scatter_of
 from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
 from treadload.roads.uncertainty import SensorError
 from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, modulus_of, poisson_of
@@ -35,9 +36,6 @@ _CHANGES = 0.15
 _LISTED = 5
 # Deviations of ln E above this are factors rather than parts.
 _WIDE = 0.4
-# Deviation of ln E up to which a modulus scatters as one number: a coefficient of variation of 1. Correlations closer
-# to one than this are round-off.
-_DECIDED, _JOINT = math.sqrt(math.log(2.0)), 1 - 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,6 +52,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
         {
             "fitted_modulus modulus_low modulus_high modulus_deviation modulus_at_reference": "basin layer_name",
             "layer_thickness": "basin layer_name",
+            "layer_poisson bond_stiffness": "layer_name",
             "unknown_at_bound": "basin unknown",
             "unknown_correlation": "basin unknown other",
             "measured_deflection fitted_deflection": "basin sensor",
@@ -127,26 +126,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
         """
         number = self.drop(station)
         self.road(number)
-        data = self.dataset.isel(basin=number)
-        names = [str(name) for name in data["layer_name"].to_numpy()]
-        deviation = dict(zip(names, map(float, data["modulus_deviation"].to_numpy()), strict=True))
-        unknowns = [str(name) for name in data["unknown"].to_numpy()]
-        sought = [k for k, name in enumerate(unknowns) if math.isfinite(deviation.get(name, math.nan))]
-        wide = [unknowns[k] for k in sought if deviation[unknowns[k]] > _DECIDED]
-        if wide:
-            raise InputError(
-                f"the basin of station {data['station'].item()} leaves the modulus of {wide[0]} undecided: it has a "
-                f"deviation of ln E of {deviation[wide[0]]:.2g}, above {_DECIDED:.2g}; give a prior, or fix the layer"
-            )
-        joint = data["unknown_correlation"].to_numpy()
-        return Scatter(
-            moduli={unknowns[k]: math.sqrt(math.expm1(deviation[unknowns[k]] ** 2)) for k in sought},
-            modulus_correlation=tuple(
-                (unknowns[i], unknowns[k], float(np.clip(joint[i, k], -_JOINT, _JOINT)))
-                for n, i in enumerate(sought)
-                for k in sought[n + 1 :]
-            ),
-        )
+        return scatter_of(self.dataset.isel(basin=number))
 
     def _stated(self, scatter: float) -> bool:
         # A scatter of exactly 1 is that of errors that count as stated.
@@ -264,6 +244,8 @@ def solution(
             "modulus_deviation": (over, deviation),
             "modulus_at_reference": (over, moduli * factors),
             "layer_thickness": (over, thickness),
+            "layer_poisson": (("layer_name",), [poisson_of(layer) for layer in road.layers]),
+            "bond_stiffness": (("layer_name",), [layer.bond.stiffness for layer in road.layers]),
             "unknown_at_bound": (("basin", "unknown"), fits.at_bound),
             "unknown_correlation": (("basin", "unknown", "other"), fits.correlation),
             "measured_deflection": (("basin", "sensor"), basins.deflection),

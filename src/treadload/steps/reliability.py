@@ -23,7 +23,8 @@ class ReliabilityStep(Step, name="reliability"):
     allows, of all laws or a table by the names of criteria; left out, that of each law, else of its mix. thickness:
     Sh, of all asphalt, or a table by the names of layers; left out, by the rule of the French method. moduli:
     coefficient of variation of every layer's modulus, or a table by the names of layers. traffic: coefficient of
-    variation of the passes. temperature: of the year. coverage: share of a criterion's damage that is solved again
+    variation of the passes. temperature: of the year. modulus_correlation: of the logarithms of two moduli, a list
+    of [layer, layer, correlation]. coverage: share of a criterion's damage that is solved again
     with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of
     the Monte Carlo. seed: of the draws.
     """
@@ -36,6 +37,7 @@ class ReliabilityStep(Step, name="reliability"):
     moduli: Share | dict[str, Share] = 0.0
     traffic: Share = 0.0
     temperature: Kelvin = 0.0
+    modulus_correlation: tuple[tuple[str, str, Number], ...] = ()
     coverage: Share = 0.5
     held_back: int = 4
     draws: int = 100_000
@@ -55,7 +57,9 @@ class ReliabilityStep(Step, name="reliability"):
 
     def build(self) -> Scatter:
         """The scatter."""
-        return Scatter(self.fatigue, self.thickness, self.moduli, self.traffic, self.temperature)
+        return Scatter(
+            self.fatigue, self.thickness, self.moduli, self.traffic, self.temperature, self.modulus_correlation
+        )
 
     def solve(self, scene: Scene) -> Reliability | None:
         """Years at the risks; None where no criterion ever fails."""

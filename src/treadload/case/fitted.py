@@ -1,0 +1,93 @@
+"""A road from a backcalculation: `[pavement] from = "moduli.nc#station 12"` becomes layers and their scatter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+
+import xarray as xr
+
+from treadload.errors import InputError, nearest
+from treadload.files import read_tree
+
+FROM = "from"
+_GROUP = "backcalculation"
+_REFUSED = 2
+
+_Tables = dict[str, object]
+
+
+def with_fitted_road(table: Mapping[str, object], folder: Path) -> _Tables:
+    """The tables of a case with the layers that a backcalculation found; as they are where it names none.
+
+    `[pavement] from`: a result file and a station, "moduli.nc#km 1.2"; the first drop of the station is taken.
+    `[reliability]` without moduli takes their scatter and correlation. folder: that the file is looked for in.
+    Raises InputError.
+    """
+    pavement = table.get("pavement")
+    if not isinstance(pavement, Mapping) or FROM not in pavement:
+        return dict(table)
+    source = pavement[FROM]
+    stray = next((key for key in pavement if key in ("layers", "structure", "rigid_base", "temperature")), None)
+    if stray is not None:
+        raise InputError(f"pavement.from stands in place of pavement.{stray}; leave one of them out")
+    if not isinstance(source, str) or "#" not in source:
+        raise InputError(f'pavement.from must be a file and a station, "moduli.nc#km 1.2", got {source!r}')
+    file, _, station = source.rpartition("#")
+    drop = _drop(folder / file, station.strip())
+    rest = {key: value for key, value in pavement.items() if key != FROM}
+    tables = {**table, "pavement": {**rest, **_layers(drop)}}
+    reliability = table.get("reliability")
+    if isinstance(reliability, Mapping) and not {"moduli", "modulus_correlation"} & set(reliability):
+        tables["reliability"] = {**reliability, **_scatter(drop)}
+    return tables
+
+
+def _drop(path: Path, station: str) -> xr.Dataset:
+    if not path.is_file():
+        raise InputError(f"pavement.from: there is no file {path}; `treadload backcalculate` makes one")
+    tree = read_tree(path, "a result in NetCDF-4")
+    if _GROUP not in tree.children:
+        raise InputError(f"pavement.from: {path} holds no backcalculation; its parts: {', '.join(tree.children)}")
+    data = tree[_GROUP].to_dataset()
+    stations = [str(name) for name in data["station"].to_numpy()]
+    name = station if station in stations else station.removeprefix("station").strip()
+    if name not in stations:
+        raise InputError(
+            f"pavement.from: {path} has no station {station!r}; {nearest(name, dict.fromkeys(stations))}"
+        )
+    drop = data.isel(basin=stations.index(name))
+    if int(drop["basin_status"]) == _REFUSED:
+        raise InputError(f"pavement.from: station {name} was refused: {drop['reason'].item()}")
+    return drop
+
+
+def _layers(drop: xr.Dataset) -> _Tables:
+    layers: list[_Tables] = []
+    for number, name in enumerate(map(str, drop["layer_name"].to_numpy())):
+        thickness = float(drop["layer_thickness"][number])
+        if not thickness > 0:
+            continue
+        modulus, poisson = float(drop["fitted_modulus"][number]), float(drop["layer_poisson"][number])
+        layer: _Tables = {"name": name, "material": {"kind": "elastic", "modulus": modulus, "poisson": poisson}}
+        if math.isfinite(thickness):
+            layer["thickness"] = thickness
+        stiffness = float(drop["bond_stiffness"][number])
+        if math.isfinite(stiffness):
+            layer["bond"] = {"stiffness": stiffness} if stiffness else "frictionless"
+        layers.append(layer)
+    rigid = "thickness" in layers[-1]
+    if rigid:
+        layers[-1].pop("bond", None)
+    return {"layers": layers, **({"rigid_base": True} if rigid else {})}
+
+
+def _scatter(drop: xr.Dataset) -> _Tables:
+    # Few cases need the search behind it.
+    from treadload.roads.scatter import scatter_of
+
+    scatter = scatter_of(drop)
+    assert isinstance(scatter.moduli, Mapping)
+    pairs = [list(pair) for pair in scatter.modulus_correlation]
+    return {"moduli": dict(scatter.moduli), **({"modulus_correlation": pairs} if pairs else {})}
