@@ -16,7 +16,6 @@ from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.layers import Layering, images_of
 from treadload.contact.bodies.ribs import Ribs
 from treadload.contact.bodies.viscoelastic import of_material
-from treadload.errors import InputError
 from treadload.kernels import belt as belting
 from treadload.kernels.arrays import Array
 from treadload.kernels.belt import Sheet
@@ -108,15 +107,11 @@ def belt_surface(inflated: InflatedBelt, speed: float | None = None) -> Body:
     def tread(material: Elastic) -> Body:
         return _on_rigid_base(material, belt.tread_thickness)
 
-    if inflated.ribs:
-        if not isinstance(belt.tread, Elastic):
-            raise InputError(
-                "ribs are of elastic rubber, got a viscoelastic tread of the belt; give its limit, tread.glassy or "
-                'tread.rubbery, or tread = "layer"'
-            )
-        rubber: Body = Ribs(inflated.ribs, belt.tread, tread(belt.tread))
-    else:
-        rubber = of_material(belt.tread, tread, is_tire=True, speed=speed)
+    def surface(material: Elastic) -> Body:
+        layer = tread(material)
+        return Ribs(inflated.ribs, material, layer) if inflated.ribs else layer
+
+    rubber = of_material(belt.tread, surface, is_tire=True, speed=speed)
     parts = [rubber, BeltSheet(inflated.sheet)]
     if belt.lateral is not None:
         parts.append(BeltString(belt.lateral))

@@ -32,7 +32,7 @@ import numpy as np
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
-from treadload.kernels.gridding.strips import shortened
+from treadload.kernels.gridding.strips import shortened, without_images
 from treadload.kernels.sections import CellTable
 
 # Loads on strips repeat after no less than this, m: at half of it a rib feels nothing of them, so that grids of any
@@ -127,20 +127,22 @@ class Strip:
     """A group of rows of a body that is the same along travel only.
 
     rows: numbers (n,) of the rows of the group. table: compliance of its rows for E = 1 Pa. modulus: E, Pa.
-    mirrored: True where the table is that of the image in y = 0.
+    mirrored: True where the table is that of the image in y = 0. memory: strength and length, m, of every part of the
+    displacement that fades behind a steadily rolling load.
     """
 
     rows: IntArray
     table: CellTable
     modulus: float
     mirrored: bool = False
+    memory: tuple[tuple[float, float], ...] = ()
 
     def block(self, cells: int, dx: float, ahead: float = 0.0) -> Array | ComplexArray:
         """As in `kernels.gridding.strips.Strips`: waves of cells of dx, m, that repeat after so many.
 
         ahead: distance of the displacement from the cells, m.
         """
-        block = _unit_block(self.table, cells, dx, ahead) / self.modulus
+        block = _unit_block(self.table, cells, dx, ahead, self.memory) / self.modulus
         if not self.mirrored:
             return block
         count = self.rows.size
@@ -151,10 +153,15 @@ class Strip:
 
 
 @lru_cache(maxsize=_KEPT)
-def _unit_block(table: CellTable, cells: int, dx: float, ahead: float) -> Array | ComplexArray:
+def _unit_block(
+    table: CellTable, cells: int, dx: float, ahead: float, memory: tuple[tuple[float, float], ...]
+) -> Array | ComplexArray:
     """Block of a strip for E = 1 Pa, not to be written to: mirrored ribs share a table, and so its blocks."""
     whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
     lattice = _lattice(table, whole, dx, ahead)
+    for strength, length in memory:
+        faded = table.on_lattice(whole, dx, ahead, length)
+        lattice = np.add(lattice, strength * without_images(faded, whole, length / dx))
     return shortened(lattice, whole, cells) if whole > cells else lattice
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, lru_cache
 
 import numpy as np
@@ -141,6 +141,8 @@ class Influence:
         length = int(fft.next_fast_len(self.shape[1], real=True))
         strips = self._strips_of(length)
         assert strips is not None
+        # Of what lags behind, the part in phase.
+        strips = replace(strips, blocks=tuple(block.real for block in strips.blocks))
         at = Offsets(self.shape[0], length // 2 + 1, self.dx, self.dy)
         if components == (2,):
             return StripInverse.of(strips, components, {(2, 2): self.pair.normal(at)})

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
+from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Sum, Waves
 from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, ComplexArray
@@ -75,6 +75,16 @@ class Fading(Body):
     def across(self, k: Array) -> Array:
         """As in `Body`, of waves along x."""
         return np.asarray(np.abs(self._fading(k)) * self.glassy.across(k))
+
+    @property
+    def striped(self) -> bool:
+        """As the body at once."""
+        return self.glassy.striped
+
+    def strips(self, rows: Rows) -> tuple[Strip, ...]:
+        """As in `Body`: those of the body at once, and what fades of them."""
+        memory = tuple((strength, self.speed * time) for strength, time in self.material.creep_terms)
+        return tuple(replace(strip, memory=memory) for strip in self.glassy.strips(rows))
 
     def _fading(self, kx: Array) -> ComplexArray:
         return np.asarray(

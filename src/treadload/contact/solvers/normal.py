@@ -97,13 +97,14 @@ def _solve(
     if influence.symmetric:
         solution = _by_gradients(influence, gap, total, approach, start, tolerance)
     else:
+        inverse = _by_strips(influence)
         solution = active_set.solve(
             influence.normal,
             gap,
             start,
             total=total,
             level=approach,
-            precondition=_inverse(influence.normal_stiffness, influence.shape),
+            precondition=_inverse(influence.normal_stiffness, influence.shape) if inverse is None else inverse,
             tolerance=tolerance,
         )
     if not solution.converged:
@@ -120,7 +121,7 @@ def _by_gradients(
     influence: Influence, gap: Array, total: float | None, approach: float | None, start: Array, tolerance: float
 ) -> BoundSolution:
     """The solution of a symmetric pair, found on the device of the kernels; of strips on the processor."""
-    inverse = influence.strip_inverse((2,))
+    inverse = _by_strips(influence)
     if inverse is not None:
         return projected_cg.solve(
             influence.normal,
@@ -128,7 +129,7 @@ def _by_gradients(
             start,
             total=total,
             level=approach,
-            precondition=lambda residual: inverse(residual[None])[0],
+            precondition=inverse,
             self_influence=influence.normal_self_influence,
             tolerance=tolerance,
         )
@@ -158,6 +159,12 @@ def _by_gradients(
         tolerance=tolerance,
     )
     return replace(solution, pressure=fft.to_host(solution.pressure), compliance=fft.to_host(solution.compliance))
+
+
+def _by_strips(influence: Influence) -> Operator | None:
+    """About the inverse of normal compliance by the strips of a pair; None of a pair without."""
+    inverse = influence.strip_inverse((2,))
+    return None if inverse is None else lambda residual: inverse(residual[None])[0]
 
 
 def _inverse(symbol: Array | ComplexArray, periodic: tuple[int, int]) -> Operator:

@@ -232,6 +232,26 @@ def shortened(block: Array | ComplexArray, whole: int, length: int) -> Array | C
     return short.reshape(half + 1, *block.shape[1:])
 
 
+def without_images(block: Array | ComplexArray, length: int, fading: float) -> ComplexArray:
+    """A block of displacements that fade behind the load, without those of its images ahead.
+
+    block: (length // 2 + 1, 3 n, 3 n) as in `Strips`, complex. fading: cells over which displacements fade.
+    Half way round, where the body at once feels nothing any more, what fades is that of one load and, by a geometric
+    series, of all images ahead of it; it falls with exp(-distance / fading) from there.
+    """
+    count = block.shape[1] // 3
+    parts = block.reshape(-1, 3, count, 3, count).copy()
+    offset = fft.fftfreq(length, 1 / length)
+    behind = length - length // 2
+    images = fft.rfft(np.exp((offset - behind) / fading))[:, None, None]
+    for i in range(3):
+        for j in range(3):
+            frame = _FRAME[i] * _FRAME[j].conjugate()
+            half_way = fft.irfft(frame * parts[:, i, :, j], n=length, axis=0)[behind]
+            parts[:, i, :, j] -= images * half_way / frame
+    return np.asarray(parts.reshape(block.shape))
+
+
 def _along(kernel: Array, length: int, *, odd: bool) -> ComplexArray:
     """Transform along travel (ny, length // 2 + 1) of a kernel known at distances ≥ 0 (ny, length // 2 + 1)."""
     wrapped = np.zeros((kernel.shape[0], length))

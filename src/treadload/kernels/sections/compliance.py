@@ -86,17 +86,18 @@ class CellTable:
         """Compliance (m, 3 strips, 3 strips) at waves k (m,) ≥ 0, 1/m; beyond those of the table it falls as 1/k."""
         return np.asarray(self._combined(self._weights(k)).real)
 
-    def on_lattice(self, cells: int, dx: float, ahead: float = 0.0) -> Array | ComplexArray:
+    def on_lattice(self, cells: int, dx: float, ahead: float = 0.0, fading: float = 0.0) -> Array | ComplexArray:
         """Mean displacement of cells of length dx, m, by uniform loads on others, periodic after so many cells.
 
         Returns (cells // 2 + 1, 3 strips, 3 strips), m/Pa, in the frame of the table: real, symmetric, positive. A
         wave of the lattice stands for all that look alike on it. ahead: distance of the displacement from the cells,
-        m; complex where it is not 0.
+        m; complex where it is not 0. fading: length behind a steadily rolling load over which the displacement fades,
+        m, V T of rubber that retards it, 1/(1 - i k V T); complex where it is not 0.
         """
         count = self.compliance.shape[1]
         number = np.arange(cells // 2 + 1)
         # Every wave of the lattice is a sum of those of the table; those against the direction of travel apart.
-        forth = np.zeros((number.size, self.waves.size), complex if ahead else float)
+        forth = np.zeros((number.size, self.waves.size), complex if ahead or fading else float)
         back = np.zeros_like(forth)
         for alias in range(-_ALIASES, _ALIASES + 1):
             waves = number / cells + alias
@@ -106,6 +107,8 @@ class CellTable:
             if ahead:
                 # Half way round, a wave and its image are one: of both together only what is real is left.
                 part = part * np.exp(2j * np.pi * ahead / dx * waves[seen])[:, None]
+            if fading:
+                part = part / (1 - 2j * np.pi * fading / dx * waves[seen])[:, None]
             (back if alias < 0 else forth)[seen] += part
         # Loads and displacements along travel turn round with the direction of a wave.
         total = self._combined(forth + back)
