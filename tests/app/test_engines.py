@@ -74,7 +74,7 @@ def test_who_leaves_while_a_process_starts_leaves_it_to_the_next(tmp_path):
 
 
 def test_a_process_whose_page_is_gone_ends_whatever_its_threads_do():
-    """One of twenty that were solving stayed for ever at the end of Python when the page was killed."""
+    """Of 20 that were solving, 12 were still there after 40 s: without a Python frame."""
     text = (
         "import threading, time; from treadload.app import engine\n"
         "engine.warm = lambda: None\n"
