@@ -16,7 +16,7 @@ import numpy as np
 from timing import print_table
 
 import treadload as tl
-from treadload.case.first import first_case
+from treadload.templates import first_case
 
 # Two processes against one, where two hundred cases have their verdict.
 GOAL = 1.7

@@ -49,7 +49,7 @@ REPEATED = (
     HEAD
     + """
 from dataclasses import replace
-from treadload.case.first import first_case
+from treadload.templates import first_case
 from treadload.sweeps.design import product
 from treadload.sweeps.places import processes
 from treadload.sweeps.store import begun

@@ -28,6 +28,7 @@ LEAVES = (
     "files",
     "describing",
     "spelling",
+    "templates",
     "figure_registry",
     "citations",
     "composing",

@@ -65,6 +65,24 @@ _USUAL = (
     "m", "cm", "mm", "µm", "km", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa", "bar", "psi", "N/mm²", "kN/m²", "MPa/m",
     "m/s", "km/h", "s", "ms", "Hz", "K", "deg", "rad", "1/m", "kJ/mol", "J/mol", "1/MPa", "microstrain",
 )  # fmt: skip
+# What most cases are written in, by the SI unit asked for: pint, which takes as long to start as a small solve, is not
+# needed for these.
+_FACTORS = {
+    "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "km": 1e3},
+    "m^2": {"m^2": 1.0, "cm^2": 1e-4, "mm^2": 1e-6},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5},
+    "Pa/m": {"MPa/m": 1e6, "GPa/m": 1e9},
+    "N": {"N": 1.0, "kN": 1e3},
+    "N m": {"N m": 1.0},
+    "N/m": {"N/m": 1.0, "N/mm": 1e3},
+    "1/m": {"1/m": 1.0},
+    "m/s": {"m/s": 1.0, "km/h": 1 / 3.6},
+    "s": {"s": 1.0, "ms": 1e-3},
+    "Hz": {"Hz": 1.0},
+    "K": {"K": 1.0},
+    "rad": {"rad": 1.0, "deg": math.pi / 180},
+    "": {"%": 1e-2, "microstrain": 1e-6},
+}
 # Angles are pure numbers to pint; here 2 deg is not a pure number, and 600 rpm are not 62.8 Hz.
 _ALSO = {"rad/m": "1/m"}
 
@@ -149,7 +167,10 @@ def _parse(text: str, unit: str) -> float:
     if not written and unit and unit != "degC" and number == 0:
         return 0.0
     try:
-        value = _degrees(number, written) if unit == "degC" else number * _factor(written, unit)
+        if unit == "degC":
+            value = _degrees(number, written)
+        else:
+            value = number * (_FACTORS.get(unit, {}).get(written) or _factor(written, unit))
     except InputError:
         raise
     except Exception as error:
@@ -177,6 +198,8 @@ def _factor(written: str, unit: str) -> float:
 
 def _degrees(number: float, written: str) -> float:
     """Temperature in °C. Raises whatever pint does for another kind of unit."""
+    if written in ("degC", "°C"):
+        return round(number, 9)
     units = _units(written)
     if "delta" in str(units):
         raise ValueError("a difference is not a temperature")

@@ -15,15 +15,15 @@ from treadload.app.form_parts import Absent, Choosing, Group, Rows, parts_in
 from treadload.app.session import MESHES, Session
 from treadload.app.unsolved import left_out, unsolved
 from treadload.case import Case
-from treadload.case.first import first_case
 from treadload.case.step import Source
 from treadload.contact import Maneuver
 from treadload.errors import InputError
+from treadload.templates import first_case
 
 ROOT = Path(__file__).parents[2]
 CASES = [
     *sorted(path for path in (ROOT / "examples").rglob("*.toml") if path.name != "pyproject.toml"),
-    *(Path(treadload.case.__file__).parent / f"first_{command}.toml" for command in ("run", "life")),
+    *(Path(treadload.__file__).parent / "templates" / f"{command}.toml" for command in ("run", "life")),
 ]
 
 

@@ -7,8 +7,8 @@ from typer.testing import CliRunner
 
 import treadload as tl
 from cases import COARSE_CASE
-from treadload.case.first import first_case
 from treadload.cli import app
+from treadload.templates import first_case
 
 
 @pytest.fixture(scope="module")

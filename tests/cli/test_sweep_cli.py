@@ -109,7 +109,7 @@ def test_an_interruption_says_how_to_go_on(case, monkeypatch):
 
 
 def test_a_design_case_is_varied_too(tmp_path):
-    from treadload.case.first import first_case
+    from treadload.templates import first_case
 
     design = tmp_path / "design.toml"
     design.write_text(first_case("life"))

@@ -11,11 +11,11 @@ from treadload.calibration.extents import covered, extents
 from treadload.calibration.fit import STEEL, calibrate
 from treadload.calibration.problem import Model, Problem
 from treadload.case import Case
-from treadload.case.first import first_case
 from treadload.footprint import Measured, Unknown
 from treadload.grid import Grid
 from treadload.identifiability import undecided_in_words
 from treadload.steps import run
+from treadload.templates import first_case
 from treadload.tire.numbers import NUMBERS
 
 TIRE = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3, belt=tl.tire.Belt.from_library("315/80R22.5"))

@@ -10,8 +10,8 @@ import pytest
 
 import treadload as tl
 from treadload.case import Case
-from treadload.case.first import first_case
 from treadload.case.schema import json_schema
+from treadload.templates import first_case
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"run": Case, "life": Case, "calibrate": Case}

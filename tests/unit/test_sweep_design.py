@@ -7,11 +7,11 @@ import xarray as xr
 
 import treadload as tl
 from sweeps import small_case
-from treadload.case.first import first_case
 from treadload.case.keys import find_key, keys_of
 from treadload.errors import InputError
 from treadload.sweeps import Design, bounds_of, from_file, from_texts, sampled
 from treadload.sweeps.design import from_dataset, listed, product
+from treadload.templates import first_case
 
 
 @pytest.fixture(scope="module")

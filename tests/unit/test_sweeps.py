@@ -221,7 +221,7 @@ def test_wrong_questions(tmp_path, vary, more, said):
 
 
 def test_a_calibration_is_no_question_to_vary():
-    from treadload.case.first import first_case
+    from treadload.templates import first_case
 
     with pytest.raises(InputError, match=r"\[calibration\], of which no numbers are kept"):
         tl.sweep(tl.case.Case.from_text(first_case("calibrate")), {"friction": [0.5]})

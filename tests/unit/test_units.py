@@ -1,7 +1,27 @@
 import pytest
 
+from treadload import units
 from treadload.errors import InputError
 from treadload.units import quantity, stress_in_words
+
+
+@pytest.mark.parametrize(("unit", "written"), [(unit, name) for unit in units._FACTORS for name in units._FACTORS[unit]])
+def test_usual_units_are_those_of_pint_to_the_last_digit(unit, written, monkeypatch):
+    numbers = ["0", "1", "-0.7", "3", "8.2", "32.5", "1e-7", "5400", "0.35", "123.456", "1e12"]
+    usual = [quantity(f"{number} {written}", unit) for number in numbers]
+    monkeypatch.setattr(units, "_FACTORS", {})
+    assert usual == [quantity(f"{number} {written}", unit) for number in numbers]
+
+
+def test_degrees_celsius_are_those_of_pint():
+    for number in (-40.0, -0.1, 0.0, 15.0, 35.3, 159.95):
+        assert units._degrees(number, "degC") == units._degrees(number, "celsius") == number
+
+
+def test_usual_units_need_no_pint(monkeypatch):
+    monkeypatch.setattr(units, "_registry", None)
+    assert quantity("3 mm", "m") == 0.003
+    assert quantity("20 °C", "degC") == 20.0
 
 
 @pytest.mark.parametrize(

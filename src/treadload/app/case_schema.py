@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from treadload.app.form_field import LIST, NUMBER, TEXT, unit_of
-from treadload.case.first import first_case
 from treadload.case.schema import json_schema
 from treadload.files import parse_toml, text_of
+from treadload.templates import first_case
 
 _REFERENCE = "#/$defs/"
 WAY = "required"

@@ -27,8 +27,6 @@ from treadload.app.stored_run import Stopped, StoredRun
 from treadload.app.study_points import about_study, point_of, point_rows
 from treadload.app.unsolved import left_out
 from treadload.case import Case
-from treadload.case.first import first_case
-from treadload.case.schema import KINDS
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Verdict
@@ -43,6 +41,7 @@ from treadload.steps.footprint import FootprintStep
 from treadload.steps.loaded import Loaded, contact_of, load_case
 from treadload.steps.scene import Options, Progress, Scene, stream
 from treadload.sweeps import Sweep
+from treadload.templates import KINDS, first_case
 from treadload.tire import Tire
 
 # Results held in memory; others are read from their files again.

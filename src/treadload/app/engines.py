@@ -13,7 +13,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
-from treadload.case.schema import KINDS
+from treadload.templates import KINDS
 
 # A figure of many cells is one line.
 _LONGEST_LINE = 2**28

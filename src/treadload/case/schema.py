@@ -12,12 +12,11 @@ from treadload import catalogue
 from treadload.case.model import Case
 from treadload.case.step import Source, step_class, step_classes
 from treadload.case.tire import EXAMPLE
-from treadload.errors import InputError, nearest
+from treadload.errors import InputError
 from treadload.read import REFERENCE, Choice, choice_named, sentences
 from treadload.registry import STEPS
+from treadload.templates import check_kind
 
-KINDS = ("run", "life", "calibrate")
-"""Kinds of cases, by the command that runs them."""
 # Table and key whose text is, among others, one of these names.
 _CATALOGUED = (
     ("TirePart", "profile", catalogue.tires),
@@ -28,12 +27,6 @@ _CATALOGUED = (
 )
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _DEFINED = "#/$defs/"
-
-
-def check_kind(name: str) -> None:
-    """Raise InputError for what is not the command of a case, "run", "life" or "calibrate"."""
-    if name not in KINDS:
-        raise InputError(f"no kind of case {name!r}; {nearest(name, KINDS)}")
 
 
 def keys_of_kind(name: str, broken: list[str] | None = None) -> tuple[tuple[str, ...], tuple[str, ...]]:

@@ -107,9 +107,9 @@ def init(
     force: Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")] = False,
 ) -> None:
     """Write a case that runs as it is, each key with its unit, its default and its reason."""
-    from treadload.case.first import first_case
     from treadload.errors import InputError
     from treadload.files import write_whole
+    from treadload.templates import first_case
 
     text = first_case(kind)
     if output.exists() and not force:
