@@ -103,8 +103,8 @@ def reading(file: str, kind: str, remedy: str = "it may be truncated, export or 
 
 
 def how_to_install(extra: str) -> str:
-    """What to run for a package of an extra, such as "scan"; it works in a clone, which is all there is so far."""
-    return f"in the folder of the clone, run  pip install '.[{extra}]'"
+    """What to run for a package of an extra, such as "scan": after an installation from an index, or in a clone."""
+    return f"run  pip install 'treadload[{extra}]'  (in a clone  pip install '.[{extra}]')"
 
 
 def meant(wanted: object, names: Iterable[str], cutoff: float = 0.6) -> str | None:

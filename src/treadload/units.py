@@ -65,8 +65,7 @@ _USUAL = (
     "m", "cm", "mm", "µm", "km", "N", "kN", "MN", "Pa", "kPa", "MPa", "GPa", "bar", "psi", "N/mm²", "kN/m²", "MPa/m",
     "m/s", "km/h", "s", "ms", "Hz", "K", "deg", "rad", "1/m", "kJ/mol", "J/mol", "1/MPa", "microstrain",
 )  # fmt: skip
-# What most cases are written in, by the SI unit asked for: pint, which takes as long to start as a small solve, is not
-# needed for these.
+# Usual units, by the SI unit asked for, which need no pint: it takes as long to start as a small solve.
 _FACTORS = {
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "km": 1e3},
     "m^2": {"m^2": 1.0, "cm^2": 1e-4, "mm^2": 1e-6},

@@ -37,7 +37,7 @@ def test_convergence_error_carries_its_residual():
 
 
 def test_what_to_install_is_said_in_one_place_and_names_an_extra_that_there_is():
-    # Nothing is released: only `pip install '.[extra]'` in a clone works.
+    # Of an index and of a clone.
     root = Path(treadload.__file__).parent
     said = {path.name for path in root.rglob("*.py") if "pip install" in path.read_text(encoding="utf-8")}
     assert said == {"errors.py"}
@@ -49,7 +49,7 @@ def test_what_to_install_is_said_in_one_place_and_names_an_extra_that_there_is()
     }
     assert asked == {"app", "clouds", "cluster", "excel", "fringes", "metrology", "scan", "study"}
     assert asked <= set(extras)
-    assert how_to_install("scan").endswith("run  pip install '.[scan]'")
+    assert how_to_install("scan") == "run  pip install 'treadload[scan]'  (in a clone  pip install '.[scan]')"
 
 
 @pytest.mark.parametrize("value", [1, 5e-324, 1.7e308, np.float32(2.0), np.array(3.0)])

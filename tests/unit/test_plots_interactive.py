@@ -272,9 +272,7 @@ def test_a_map_of_3_mm_is_small_enough_to_be_redrawn_in_a_fifth_of_a_second():
 
 def test_without_plotly_the_sentence_names_the_extra(contact, monkeypatch):
     monkeypatch.setitem(sys.modules, "plotly.graph_objects", None)
-    with pytest.raises(
-        tl.InputError, match=r"not installed; in the folder of the clone, run  pip install '\.\[app\]'"
-    ):
+    with pytest.raises(tl.InputError, match=r"not installed; run  pip install 'treadload\[app\]'"):
         interactive.linked_maps([interactive.pressure_field(contact)])
 
 

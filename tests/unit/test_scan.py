@@ -388,7 +388,7 @@ def test_a_grid_away_from_the_tread_is_refused(tmp_path):
 
 def test_without_trimesh_the_remedy_is_named(monkeypatch):
     monkeypatch.setitem(sys.modules, "trimesh", None)
-    with pytest.raises(InputError, match=r"in the folder of the clone, run  pip install '\.\[scan\]'"):
+    with pytest.raises(InputError, match=r"run  pip install 'treadload\[scan\]'"):
         Tire.from_scan(example_mesh())
 
 

@@ -5,7 +5,9 @@ from treadload.errors import InputError
 from treadload.units import quantity, stress_in_words
 
 
-@pytest.mark.parametrize(("unit", "written"), [(unit, name) for unit in units._FACTORS for name in units._FACTORS[unit]])
+@pytest.mark.parametrize(
+    ("unit", "written"), [(unit, name) for unit in units._FACTORS for name in units._FACTORS[unit]]
+)
 def test_usual_units_are_those_of_pint_to_the_last_digit(unit, written, monkeypatch):
     numbers = ["0", "1", "-0.7", "3", "8.2", "32.5", "1e-7", "5400", "0.35", "123.456", "1e12"]
     usual = [quantity(f"{number} {written}", unit) for number in numbers]

@@ -15,7 +15,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -58,8 +58,8 @@ def extents(pressure: Array, x: Array, y: Array, dx: float, dy: float) -> Extent
         raise InputError("nothing presses on the road, so that no area can be told; raise the load")
     # The outline runs through the ends of the rows and of the columns.
     try:
-        gross = float(ConvexHull(np.concatenate([along, across])).volume)
-    except QhullError as error:
+        gross = float(scipy.spatial.ConvexHull(np.concatenate([along, across])).volume)
+    except scipy.spatial.QhullError as error:
         raise InputError("the outline of the contact has no area; check its spacing") from error
     return Extents(
         float(part.sum()) * dx * dy,

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypedDict, Unpack
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from treadload.calibration.evaluations import Evaluations, Progress
 from treadload.calibration.problem import Problem
@@ -100,7 +100,7 @@ def calibrate(
         search = _Search(problem, solves, size, low, high)
         # The reflective method begins inside.
         inside = np.clip(start, low + 1e-6 * size, high - 1e-6 * size)
-        solution_of = least_squares(
+        solution_of = scipy.optimize.least_squares(
             search.residuals,
             inside / size,
             jac=search.jacobian,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.special import chdtrc, ndtri, stdtrit
 
 from treadload import variables
 from treadload.calibration.problem import Model, Problem, inflated
@@ -114,7 +114,13 @@ class Calibration(BaseResult, group="calibration"):
         free = float(self.dataset.attrs["degrees_of_freedom"])
         errors_stated = bool(self.dataset.attrs["errors_given"])
         tail = 0.5 * (1 + level)
-        reach = float(ndtri(tail) if errors_stated else stdtrit(free, tail) if free > 0 else math.nan)
+        reach = float(
+            scipy.special.ndtri(tail)
+            if errors_stated
+            else scipy.special.stdtrit(free, tail)
+            if free > 0
+            else math.nan
+        )
         half = reach * self.standard_deviation(name)
         return self.value(name) - half, self.value(name) + half
 
@@ -275,7 +281,7 @@ def _doubts(
             )
     if left <= 0:
         caveats.append("as many numbers as readings: nothing checks the fit; measure more")
-    elif errors_stated and chdtrc(left, square) < _CHANCE:
+    elif errors_stated and scipy.special.chdtrc(left, square) < _CHANCE:
         caveats.append(
             f"the readings scatter about the fit {math.sqrt(square / left):.2g} times as much as their errors say: "
             "they contradict each other or the model, and the error bars are too narrow by as much"

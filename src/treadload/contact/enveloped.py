@@ -12,8 +12,8 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.special import erf
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.solution import Contact
@@ -111,7 +111,7 @@ def _gaussian(sigma: float, step: float) -> Array:
     """Weights of cells, of sum one: integrals of the Gaussian over them."""
     reach = max(1, math.ceil(_REACH * sigma / step))
     edges = (np.arange(-reach, reach + 2) - 0.5) * step
-    weights = np.diff(erf(edges / (sigma * math.sqrt(2))))
+    weights = np.diff(scipy.special.erf(edges / (sigma * math.sqrt(2))))
     return np.asarray(weights / weights.sum())
 
 

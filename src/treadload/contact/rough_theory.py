@@ -11,14 +11,14 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.special import erf
+import scipy
 
 from treadload.kernels.arrays import Array
 
 
 def persson_area(pressure: Array, modulus: float, slope: float) -> Array:
     """Share of the area that touches at pressures, Pa: erf(√2 p/(E* slope)); √(8/π) p/(E* slope) at light load."""
-    return np.asarray(erf(math.sqrt(2) * np.asarray(pressure) / (modulus * slope)))
+    return np.asarray(scipy.special.erf(math.sqrt(2) * np.asarray(pressure) / (modulus * slope)))
 
 
 def asperity_area(pressure: Array, modulus: float, slope: float) -> Array:

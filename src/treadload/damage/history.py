@@ -6,9 +6,9 @@ from dataclasses import replace
 from typing import Literal, overload
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import ArrayLike
-from scipy.interpolate import CubicSpline
 
 from treadload import variables
 from treadload.composing import Source
@@ -55,7 +55,7 @@ def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Datas
             f"its x span {np.ptp(x):g} m; let x reach further back or take fewer passes"
         )
     stress = np.stack([part(data, name) for name in STRESS])
-    tail = CubicSpline(x, stress, axis=-1)
+    tail = scipy.interpolate.CubicSpline(x, stress, axis=-1)
     places = x[kept]
     left = np.zeros((*stress.shape[:-1], len(places)))
     for number in range(1, passes + 1):

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.ndimage import maximum_filter
 
 from treadload import variables
 from treadload.composing import Source
@@ -272,13 +272,17 @@ def _rivals(field: Field) -> list[tuple[int, int, int]]:
     Beside the line where tension ends the reading may rise, up to that line, to the extension beyond it.
     """
     value = np.where(np.isnan(field.value), -np.inf, field.value)
-    around = maximum_filter(np.where(np.isnan(field.extension), -np.inf, field.extension), (1, 3, 3), mode="nearest")
-    shut = maximum_filter((value < field.extension).astype(np.uint8), (1, 3, 3), mode="nearest").astype(bool)
+    around = scipy.ndimage.maximum_filter(
+        np.where(np.isnan(field.extension), -np.inf, field.extension), (1, 3, 3), mode="nearest"
+    )
+    shut = scipy.ndimage.maximum_filter((value < field.extension).astype(np.uint8), (1, 3, 3), mode="nearest").astype(
+        bool
+    )
     ends = shut & (value > 0)
     most = np.where(ends, around, value)
     alone = np.where(ends, value, -np.inf)
-    top = (value == maximum_filter(value, (1, 3, 3), mode="nearest")) | (
-        ends & (alone == maximum_filter(alone, (1, 3, 3), mode="nearest"))
+    top = (value == scipy.ndimage.maximum_filter(value, (1, 3, 3), mode="nearest")) | (
+        ends & (alone == scipy.ndimage.maximum_filter(alone, (1, 3, 3), mode="nearest"))
     )
     top &= most >= _RIVAL * value[field.worst]
     places = sorted(map(tuple, np.argwhere(top)), key=lambda at: -most[at])

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.traffic import Traffic
@@ -127,7 +127,7 @@ def years_until(traffic: Traffic, damage: float, weather: float) -> float:
         return damage * traffic.growth_factor(years) + weather * years - 1
 
     # At the shorter of the two lives one of them alone is 1, and both are no less.
-    return last if left(last) <= 0 else float(brentq(left, 1e-9 * last, last, rtol=1e-12))
+    return last if left(last) <= 0 else float(scipy.optimize.brentq(left, 1e-9 * last, last, rtol=1e-12))
 
 
 def passes_until(traffic: Traffic, damage: Array, weather: float) -> Array:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from treadload.contact.friction.laws import FrictionLaw
 from treadload.contact.maneuver import STRAIGHT, Maneuver
@@ -144,7 +144,7 @@ class Wander:
                 np.add.at(shares, low + 1, part * self.shares)
         elif n:
             edges = np.append(tracks - spacing / 2, tracks[-1] + spacing / 2) / self.deviation
-            shares = np.diff(ndtr(edges))
+            shares = np.diff(scipy.special.ndtr(edges))
         else:
             shares = np.ones(1)
         weights: Array = shares / shares.sum()

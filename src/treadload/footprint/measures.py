@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull, QhullError
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
@@ -82,8 +82,8 @@ def _outline_area(x: Array, y: Array, dx: float, dy: float) -> float:
     """Area of the convex hull of cells by their centres."""
     corners = np.concatenate([np.stack([x + a * dx, y + b * dy], -1) for a in (-0.5, 0.5) for b in (-0.5, 0.5)])
     try:
-        return float(ConvexHull(corners).volume)
-    except QhullError as error:
+        return float(scipy.spatial.ConvexHull(corners).volume)
+    except scipy.spatial.QhullError as error:
         raise InputError("the outline of the footprint has no area; check its spacing") from error
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from treadload.footprint.footprint import Footprint, edges_of
 from treadload.grid import Grid
@@ -173,7 +173,9 @@ def register_pins(load: GridLoad, footprint: Footprint, near: float | None = Non
     else:
         tried = [np.array([start[0], near])]
     best = min(tried, key=lambda shift: float(np.square(at(shift)).sum()))
-    solution = least_squares(at, best, x_scale=_TRIED, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=_FINE[1])
+    solution = scipy.optimize.least_squares(
+        at, best, x_scale=_TRIED, xtol=1e-10, ftol=1e-12, gtol=1e-12, max_nfev=_FINE[1]
+    )
     x, y = (float(value) for value in solution.x)
     by_pins = through(load, footprint.moved(x, y))[0]
     share = overlap(_ratio(by_pins, measured, there) * by_pins[there], measured[there])
@@ -266,7 +268,9 @@ def _refined(load: GridLoad, print_: Footprint, start: Array, accuracy: float, m
         columns: Array = np.stack([(residual(pose + s) - residual(pose - s)) / (2 * _STEP) for s in steps], axis=1)
         return columns
 
-    solution = least_squares(residual, np.zeros(3), jac=slopes, xtol=accuracy, ftol=accuracy**2, max_nfev=most)
+    solution = scipy.optimize.least_squares(
+        residual, np.zeros(3), jac=slopes, xtol=accuracy, ftol=accuracy**2, max_nfev=most
+    )
     x, y, angle = start + solution.x * scale
     computed = seen(load, replace(grid, x0=grid.x0 + x, y0=grid.y0 + y), angle)
     by = _ratio(computed, measured, there & ~full)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.interpolate import make_interp_spline
 
 from treadload.kernels.arrays import Array
 from treadload.life.wheels import Wheels
@@ -97,5 +97,5 @@ def _halved(at: Array) -> Array:
 
 def _splines(at: Array, onto: Array) -> Array:
     """Weights (n, m) of values at m points in those of cubic splines through them at n places."""
-    weights: Array = make_interp_spline(at, np.eye(len(at)), k=3)(onto)
+    weights: Array = scipy.interpolate.make_interp_spline(at, np.eye(len(at)), k=3)(onto)
     return weights.astype(np.float32)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator, RBFInterpolator
+import scipy
 
 from treadload.damage.climate import Season
 from treadload.damage.traffic import Wander
@@ -141,11 +141,13 @@ def curves(warmth: Array, values: Array, axis: int) -> Callable[[Array], Array]:
     These go through about the logarithm of the values, of which strains are smoother functions.
     """
     if warmth.ndim == 1:
-        curve: Callable[[Array], Array] = PchipInterpolator(warmth, values, axis=axis)
+        curve: Callable[[Array], Array] = scipy.interpolate.PchipInterpolator(warmth, values, axis=axis)
         return curve
     ahead = np.moveaxis(values, axis, 0)
     linear = _LINEAR * float(np.abs(values).max()) or 1.0
-    surfaces = RBFInterpolator(warmth, np.arcsinh(ahead.reshape(len(ahead), -1) / linear), kernel="cubic", degree=1)
+    surfaces = scipy.interpolate.RBFInterpolator(
+        warmth, np.arcsinh(ahead.reshape(len(ahead), -1) / linear), kernel="cubic", degree=1
+    )
 
     def read(at: Array) -> Array:
         curve_values = linear * np.sinh(surfaces(at))

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import brentq
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -228,12 +227,14 @@ def _temperatures(life: Life) -> tuple[Array, Array, Array]:
         return warmth, reading, years
     # The damage of a year at each temperature over that of the climate, at the worst place of the climate.
     rates = shares[:, first] / parts[first]
-    curves = [PchipInterpolator(distinct, np.log(row)) if (row > 0).all() else None for row in rates]
+    curves = [
+        scipy.interpolate.PchipInterpolator(distinct, np.log(row)) if (row > 0).all() else None for row in rates
+    ]
     largest = life.readings.to_numpy().max(axis=(1, 3, 4))[:, first]
     for k, curve in enumerate(curves):
         if curve is not None:
             warmth[k] = _root(curve, distinct, float(shares[k] @ degrees))
-            reading[k] = math.exp(PchipInterpolator(distinct, np.log(largest[k]))(warmth[k]))
+            reading[k] = math.exp(scipy.interpolate.PchipInterpolator(distinct, np.log(largest[k]))(warmth[k]))
     at = warmth[[criterion.name for criterion in life.criteria].index(life.governing_criterion)]
     passes = life.dataset["life_passes"].to_numpy()
     for k, curve in enumerate(curves):
@@ -242,14 +243,14 @@ def _temperatures(life: Life) -> tuple[Array, Array, Array]:
     return warmth, reading, years
 
 
-def _root(curve: PchipInterpolator, grid: Array, near: float) -> float:
+def _root(curve: scipy.interpolate.PchipInterpolator, grid: Array, near: float) -> float:
     """Temperature at which the damage is that of the climate; of several the nearest to its mean by damage.
 
     The mean of a climate lies between its least and its largest season, so that there is one.
     """
     values = curve(grid)
     roots = [
-        float(brentq(curve, low, high)) if before != 0 else float(low)
+        float(scipy.optimize.brentq(curve, low, high)) if before != 0 else float(low)
         for low, high, before, after in zip(grid[:-1], grid[1:], values[:-1], values[1:], strict=True)
         if before * after <= 0
     ]

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from scipy.special import ndtri
+import scipy
 
 from treadload import variables
 from treadload.damage.climate import MONTHS
@@ -387,7 +387,7 @@ def _scatter(criterion: Criterion, growth: CrackGrowth) -> tuple[float, float]:
         growth.scatter if growth.scatter is not None else law_scatter if isinstance(law_scatter, float) else _SCATTER
     )
     risk = getattr(law, "risk", None)
-    return float(scatter), float(ndtri(risk)) if isinstance(risk, float) else 0.0
+    return float(scatter), float(scipy.special.ndtri(risk)) if isinstance(risk, float) else 0.0
 
 
 def _in_words(road: Pavement, growth: CrackGrowth, layer: int, trace: float, upwards: bool) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from treadload.damage.criterion import Criterion, Side
 from treadload.kernels.arrays import Array
@@ -83,14 +83,14 @@ class Lines:
         return cls(rows, y, order, places[order], nearest, core, strips, onto, lines, ordered)
 
 
-def straight(places: Array, y: Array) -> sparse.csr_array:
+def straight(places: Array, y: Array) -> scipy.sparse.csr_array:
     """Weights (ny, n) of values at n rising places in those of straight lines between them, level beyond."""
     behind = np.clip(np.searchsorted(places, y), 1, len(places) - 1)
     low = places[behind - 1]
     part = np.clip((y - low) / (places[behind] - low), 0.0, 1.0)
     weights = np.stack([1 - part, part], axis=1).ravel()
     columns = np.stack([behind - 1, behind], axis=1).ravel()
-    return sparse.csr_array((weights, columns, np.arange(0, len(columns) + 1, 2)), shape=(len(y), len(places)))
+    return scipy.sparse.csr_array((weights, columns, np.arange(0, len(columns) + 1, 2)), shape=(len(y), len(places)))
 
 
 def nearest_of(places: Array, y: Array) -> Any:

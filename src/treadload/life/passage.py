@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.interpolate import CubicSpline, make_interp_spline
 
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import as_turns, rainflow, turning_points
@@ -239,7 +239,11 @@ def _read(
     else:
         peaks = peaks_and_valleys(x, uncut, margin, smooth=smooth or plane.mean_over is not None, **at)
         # Near the surface cells do not tell what is between them.
-        between = CubicSpline(rows, peaks, axis=1) if smooth else make_interp_spline(rows, peaks, k=1, axis=1)
+        between = (
+            scipy.interpolate.CubicSpline(rows, peaks, axis=1)
+            if smooth
+            else scipy.interpolate.make_interp_spline(rows, peaks, k=1, axis=1)
+        )
         inside = (lines.y >= rows[0]) & (lines.y <= rows[-1])
         peaks = np.where(inside, np.maximum(between(lines.y), 0.0), 0.0)
     result[:turns] = as_turns(*rainflow(peaks[::2].T, peaks[1::2].T), turns, power)
@@ -271,7 +275,7 @@ def _read_both(
     whole, away = followed.by_depth, followed.away_by_depth
     on_core = followed.core[:, np.argsort(x_all, kind="stable")]
     on_lines = np.concatenate([_turns_of(on_core, turns, power), _turns_of(far_read, turns, power)], axis=1)
-    values = make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
+    values = scipy.interpolate.make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
     result[:turns] = np.maximum(values, 0.0)
     most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
     count = len(read)

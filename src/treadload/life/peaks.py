@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from treadload.damage.quantity import cut
 from treadload.kernels.arrays import Array
@@ -52,12 +52,12 @@ class Strips:
         shape = (*lines.shape, 4)
         return cls(rows, y, _before(rows, y), columns.reshape(shape), weights.reshape(shape))
 
-    def onto(self, strips: Any) -> sparse.csr_array:
+    def onto(self, strips: Any) -> scipy.sparse.csr_array:
         """What makes values on the lines of some strips, one after the other, of those on the rows; in single
         precision, which readings do not need more than.
         """
         columns, weights = self.columns[strips].ravel(), self.weights[strips].ravel().astype(np.float32)
-        return sparse.csr_array(
+        return scipy.sparse.csr_array(
             (weights, columns, np.arange(0, columns.size + 1, 4)), shape=(columns.size // 4, len(self.rows))
         )
 
@@ -147,7 +147,7 @@ def over_strips(
     return result
 
 
-def _across(onto: sparse.csr_array, field: Array) -> Array:
+def _across(onto: scipy.sparse.csr_array, field: Array) -> Array:
     """A field (..., rows, nx) at the lines of `onto`."""
     many = field.reshape(-1, *field.shape[-2:])
     result: Array = np.stack([onto @ sheet for sheet in many])

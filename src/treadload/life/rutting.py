@@ -8,9 +8,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.interpolate import CubicSpline
-from scipy.optimize import brentq
 
 from treadload import variables
 from treadload.damage.climate import Climate, Season
@@ -158,7 +157,11 @@ def _over_the_climate(
 def _between(warmth: Array, solved: list[int], values: Array) -> Array:
     """Compression on all roads (road, depth, y) from that on some, in the order of their warmth."""
     # Compression is a smooth function of it everywhere, as extension under a tread's edge is not.
-    through = CubicSpline(warmth[solved], values) if warmth.ndim == 1 else curves(warmth[solved], values, 0)
+    through = (
+        scipy.interpolate.CubicSpline(warmth[solved], values)
+        if warmth.ndim == 1
+        else curves(warmth[solved], values, 0)
+    )
     result: Array = np.maximum(through(warmth), 0.0)
     result[solved] = values
     return result
@@ -168,7 +171,7 @@ def _until(over: Any) -> float:
     low, high = 1e-3, _LONGEST
     if over(low) >= 0:
         return low
-    return float(brentq(over, low, high, rtol=1e-6)) if over(high) > 0 else math.inf
+    return float(scipy.optimize.brentq(over, low, high, rtol=1e-6)) if over(high) > 0 else math.inf
 
 
 def _parts(road: Pavement) -> tuple[Array, Array, Array]:

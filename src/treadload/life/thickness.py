@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.optimize import brentq
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -287,7 +287,7 @@ class _Search:
             ends = self._bracket(low, high, name)
             if ends is None:
                 return low
-            before, root = root, float(brentq(self.excess, *ends, xtol=fine, rtol=1e-6))
+            before, root = root, float(scipy.optimize.brentq(self.excess, *ends, xtol=fine, rtol=1e-6))
             if not self.scatters or abs(root - before) < 10 * fine:
                 break
             self.at_risk(root, fresh=True)

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.spatial import cKDTree
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
@@ -273,7 +273,7 @@ def check_apart(*groups: Spheres) -> None:
     """Raise InputError where spheres overlap."""
     at = np.concatenate([np.stack([group.x, group.y, group.z], axis=1) for group in groups])
     radius = np.concatenate([group.radius for group in groups])
-    pairs = cKDTree(at).query_pairs(2 * float(radius.max()), output_type="ndarray")
+    pairs = scipy.spatial.cKDTree(at).query_pairs(2 * float(radius.max()), output_type="ndarray")
     if not len(pairs):
         return
     reach = radius[pairs].sum(axis=1)

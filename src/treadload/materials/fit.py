@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array, ComplexArray
@@ -119,7 +119,7 @@ def _nearest(
     # The starts of smallest misfit are refined; the others lie on flat ground.
     starts.sort(key=lambda p: float((misfit(p) ** 2).sum()))
     tried = [
-        least_squares(misfit, np.clip(p, lower, upper), bounds=(lower, upper), x_scale="jac")
+        scipy.optimize.least_squares(misfit, np.clip(p, lower, upper), bounds=(lower, upper), x_scale="jac")
         for p in (starts[:2] if start is None else [*starts[:2], start])
     ]
     best = min(tried, key=lambda result: float(result.cost))

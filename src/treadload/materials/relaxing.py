@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.optimize import least_squares
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -60,7 +60,7 @@ def relaxation_of(mix: Mix) -> Relaxation:
         result: Array = (np.log(np.abs(model.material.complex_modulus(reduced))) - measured).ravel()
         return result
 
-    best = least_squares(misfit, _START, bounds=(_LOWER, _UPPER), x_scale="jac")
+    best = scipy.optimize.least_squares(misfit, _START, bounds=(_LOWER, _UPPER), x_scale="jac")
     return Relaxation(_model(best.x, float(measured.max()), mix.poisson), float(np.sqrt(np.mean(best.fun**2))))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.optimize import nnls
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, ComplexArray
@@ -88,7 +88,7 @@ def solve_non_negative(matrix: Array, target: Array) -> Array:
     length = np.linalg.norm(matrix, axis=0)
     # A term that is over before the data begin gives nothing.
     length[length == 0] = 1.0
-    return np.asarray(nnls(matrix / length, target, maxiter=50 * matrix.shape[1])[0] / length)
+    return np.asarray(scipy.optimize.nnls(matrix / length, target, maxiter=50 * matrix.shape[1])[0] / length)
 
 
 def prony_of(strengths: Array, times: Array, long_term: float, poisson: float) -> Prony:

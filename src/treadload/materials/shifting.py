@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from treadload.describing import as_call
 from treadload.errors import InputError
@@ -75,7 +75,7 @@ def master_curve(isotherms: Sequence[Measured], reference: float) -> MasterCurve
         squares.append(mismatch**2)
     # A warm curve lies at faster reduced rates the less its factor: log aT falls by each step.
     logs = np.concatenate([[0.0], np.cumsum(steps)])
-    logs -= PchipInterpolator(temperatures, logs)(reference)
+    logs -= scipy.interpolate.PchipInterpolator(temperatures, logs)(reference)
     shifted = [data.shifted(10**log, reference) for data, log in zip(ordered, logs, strict=True)]
     return MasterCurve(
         _together(shifted, reference),
@@ -110,7 +110,7 @@ def _curve(data: Measured) -> Array:
         rate, height = -np.log10(data.time[::-1]), np.log(data.modulus[::-1])
     rate, first = np.unique(rate, return_index=True)
     fine = np.interp(np.arange((rate.size - 1) * _FINE + 1) / _FINE, np.arange(rate.size), rate)
-    return np.array([fine, PchipInterpolator(rate, height[first])(fine)])
+    return np.array([fine, scipy.interpolate.PchipInterpolator(rate, height[first])(fine)])
 
 
 def _step(cold: Array, warm: Array, between: str) -> tuple[float, float]:

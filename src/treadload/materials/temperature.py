@@ -12,9 +12,8 @@ from functools import cached_property
 from typing import Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
-from scipy.optimize import least_squares
 from typing_extensions import Protocol, runtime_checkable
 
 from treadload.errors import InputError, positive
@@ -92,7 +91,7 @@ class WLF:
         start = np.linalg.lstsq(np.column_stack([rise, y]), -y * rise, rcond=None)[0]
         least = max(0.0, -float(rise.min()))
         c1, c2 = max(float(start[0]), 1e-3), max(float(start[1]), 1.05 * least + 1e-3)
-        constants = least_squares(
+        constants = scipy.optimize.least_squares(
             lambda p: p[0] * rise / (p[1] + rise) + y, (c1, c2), bounds=((0, least), np.inf), x_scale=(c1, c2)
         ).x
         if not (constants[0] > 1e-6 and least * (1 + 1e-6) < constants[1] < 1e5):
@@ -240,8 +239,8 @@ class TabulatedShift:
         self._check(_celsius(self.reference, "reference"))
 
     @cached_property
-    def _curve(self) -> PchipInterpolator:
-        return PchipInterpolator(self.temperatures, self.log_factors)
+    def _curve(self) -> scipy.interpolate.PchipInterpolator:
+        return scipy.interpolate.PchipInterpolator(self.temperatures, self.log_factors)
 
     def factor(self, temperature: ArrayLike) -> Array:
         """The factor aT at temperatures, °C. Raises InputError outside the table."""

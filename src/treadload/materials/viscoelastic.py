@@ -12,8 +12,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import brentq
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
@@ -191,6 +191,6 @@ def _swapped(terms: Terms, sign: float) -> Terms:
     for low, high in itertools.pairwise(np.log(ends)):
         # One digit off the poles at the ends.
         a, b = low + 2e-15 * (1 + abs(low)), high - 2e-15 * (1 + abs(high))
-        rate = math.exp(brentq(secular, a, b, xtol=1e-15, rtol=1e-15))
+        rate = math.exp(scipy.optimize.brentq(secular, a, b, xtol=1e-15, rtol=1e-15))
         swapped.append((1 / (rate * float((strengths * rates / (rates - rate) ** 2).sum())), 1 / rate))
     return tuple(reversed(swapped))

@@ -104,6 +104,7 @@ def _library(suffix: str) -> Any:
             from SurfaceTopography.IO import open_topography
     except ImportError as error:
         raise InputError(
-            f"reading {suffix} needs SurfaceTopography, which is not installed; {how_to_install('metrology')}"
+            f"reading {suffix} needs SurfaceTopography, which is not installed; {how_to_install('metrology')}, or, "
+            "on macOS, for which the library has no wheel, export the surface as a matrix (.csv) or NetCDF"
         ) from error
     return open_topography

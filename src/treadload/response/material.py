@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import convolve1d
+import scipy
 
 from treadload.errors import InputError
 from treadload.grid import Grid
@@ -90,7 +90,9 @@ def spread_over(load: SurfaceLoad, length: float) -> GridLoad:
     across, along = (_weights(length / step) for step in (grid.dy, grid.dx))
     more_y, more_x = len(across) // 2, len(along) // 2
     array = np.pad(array, ((0, 0), (more_y, more_y), (more_x, more_x)))
-    array = convolve1d(convolve1d(array, across, axis=1, mode="constant"), along, axis=2, mode="constant")
+    array = scipy.ndimage.convolve1d(
+        scipy.ndimage.convolve1d(array, across, axis=1, mode="constant"), along, axis=2, mode="constant"
+    )
     ny, nx = array.shape[1:]
     wide = Grid(nx, ny, grid.dx, grid.dy, grid.x0 - more_x * grid.dx, grid.y0 - more_y * grid.dy)
     return GridLoad(wide, array[0], array[1], array[2], cells.interpolation)

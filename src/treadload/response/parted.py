@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.interpolate import RectBivariateSpline
+import scipy
 
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels import fft
@@ -112,7 +112,7 @@ def parted_fields(
     inside_y = (y >= face.y[0]) & (y <= face.y[-1])
     for row in range(len(depths)):
         for part in range(9):
-            curve = RectBivariateSpline(face.y, face.x, added[row, part])
+            curve = scipy.interpolate.RectBivariateSpline(face.y, face.x, added[row, part])
             if at is None:
                 here[part, row] = np.where(inside_y[:, None] & inside_x, curve(y, x, grid=True), 0.0)
             else:
@@ -184,7 +184,7 @@ def _onto(x: Array, y: Array, face: tuple[Array, Array, PartedFace]) -> tuple[Ar
     """Jump and traction of a face on other cells."""
     own_x, own_y, state = face
     jump, traction = (
-        np.stack([RectBivariateSpline(own_y, own_x, sheet, kx=1, ky=1)(y, x) for sheet in field])
+        np.stack([scipy.interpolate.RectBivariateSpline(own_y, own_x, sheet, kx=1, ky=1)(y, x) for sheet in field])
         for field in (state.jump, state.traction)
     )
     return jump, traction

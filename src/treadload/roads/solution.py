@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.special import ndtri, stdtrit
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -193,8 +193,8 @@ def quantile(level: float, freedom: float, *, stated: bool) -> float:
     """Standard deviations on either side of a number that hold it with a probability."""
     tail = 0.5 * (1 + level)
     if stated or not freedom > 0:
-        return float(ndtri(tail))
-    return float(stdtrit(freedom, tail))
+        return float(scipy.special.ndtri(tail))
+    return float(scipy.special.stdtrit(freedom, tail))
 
 
 def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:

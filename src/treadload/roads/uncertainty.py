@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import chdtrc
+import scipy
 
 from treadload.errors import InputError
 from treadload.identifiability import UNDECIDED, spread, undecided_in_words
@@ -120,7 +120,7 @@ def certainty(
     caveats = []
     if misfit > LARGEST_MISFIT:
         caveats.append(f"misfit above {100 * LARGEST_MISFIT:g} %: {100 * misfit:.2g} %")
-    if error.stated and freedom > 0 and chdtrc(freedom, square) < _CHANCE:
+    if error.stated and freedom > 0 and scipy.special.chdtrc(freedom, square) < _CHANCE:
         caveats.append(
             f"misfit beyond the stated error of the sensors: {math.sqrt(square / freedom):.2g} times as large"
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.kernels.arrays import Array
 from treadload.tire.quality import GrooveMeasure
@@ -47,7 +47,9 @@ def groove_depth(y: Array, meridian: Array) -> Array:
     low = float(np.nanmin(meridian))
     height = np.where(np.isfinite(meridian), meridian, low)
     # A closing bridges what is narrower than its window and leaves the rounded crown as it is.
-    return np.asarray(ndimage.grey_closing(height, size=cells, mode="constant", cval=low) - height, dtype=np.float64)
+    return np.asarray(
+        scipy.ndimage.grey_closing(height, size=cells, mode="constant", cval=low) - height, dtype=np.float64
+    )
 
 
 def find_grooves(
@@ -59,10 +61,10 @@ def find_grooves(
     Width is taken at half the depth.
     """
     depth = groove_depth(y, meridian)
-    runs, count = ndimage.label(depth > shallowest)
+    runs, count = scipy.ndimage.label(depth > shallowest)
     grooves = []
     beside = max(1, round(3e-3 / (y[1] - y[0])))
-    for piece in ndimage.find_objects(runs, max_label=count):
+    for piece in scipy.ndimage.find_objects(runs, max_label=count):
         where = piece[0]
         first, last = where.start, where.stop - 1
         if first == 0 or last == len(y) - 1:

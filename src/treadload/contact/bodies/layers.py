@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import special
+import scipy
 
 from treadload.contact.bodies.body import Body, Offsets, Sum, Waves
 from treadload.contact.bodies.half_space import RIGID, HalfSpaces
@@ -153,5 +153,5 @@ def _disc_waves(area: float) -> tuple[Array, Array, float]:
     edges = np.concatenate([np.geomspace(_LONGEST_WAVE, 1.0, 25), np.arange(2.0, _SHORTEST_WAVE + 1, 2.0)])
     half = np.diff(edges) / 2
     at = (edges[:-1, None] + half[:, None] * (1 + nodes)).ravel()
-    weight = (half[:, None] * weights).ravel() * 2 * radius * (special.j1(at) / at) ** 2
+    weight = (half[:, None] * weights).ravel() * 2 * radius * (scipy.special.j1(at) / at) ** 2
     return at, weight, radius

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
-from scipy.special import ndtri
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -25,7 +24,7 @@ def refined(lengths: Array, rates: Array, parts: int = 8) -> tuple[Array, Array]
         np.concatenate([logs, np.interp(np.arange(parts * (len(logs) - 1)) / parts, range(len(logs)), logs)])
     )
     nothing = 1e-30 * max(float(rates.max(initial=0.0)), 1e-270)
-    values = PchipInterpolator(logs, np.log(np.maximum(rates, nothing)), axis=0)(fine)
+    values = scipy.interpolate.PchipInterpolator(logs, np.log(np.maximum(rates, nothing)), axis=0)(fine)
     between = np.exp(values)
     return np.exp(fine), np.where(between > 10 * nothing, between, 0.0)
 
@@ -68,7 +67,7 @@ def draws() -> tuple[Array, Array]:
     from scipy.stats import qmc
 
     uniform = qmc.Sobol(2, scramble=True, seed=1).random_base2(_DRAWS)
-    normal = ndtri(np.clip(uniform, 1e-12, 1 - 1e-12))
+    normal = scipy.special.ndtri(np.clip(uniform, 1e-12, 1 - 1e-12))
     return normal[:, 0], normal[:, 1]
 
 

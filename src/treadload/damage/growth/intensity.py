@@ -13,8 +13,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import CubicHermiteSpline, PchipInterpolator
-from scipy.ndimage import map_coordinates
+import scipy
 
 from treadload.damage.growth.options import POINTS, STEEPEST
 from treadload.errors import ConvergenceError, InputError
@@ -117,7 +116,7 @@ class Way:
         if len(self.distances) == 2:
             slope = self.offsets[1] / self.distances[1]
             return slope * distance, np.full_like(distance, slope)
-        curve = PchipInterpolator(self.distances, self.offsets)
+        curve = scipy.interpolate.PchipInterpolator(self.distances, self.offsets)
         return curve(distance), curve.derivative()(distance)
 
     def until(self, distance: float) -> Way:
@@ -188,7 +187,7 @@ def _cubic(x: Array, at: Array) -> Array:
         slope: Array = np.repeat(np.diff(unit, axis=0) / np.diff(x)[:, None], 2, axis=0)
     else:
         slope = np.asarray(np.gradient(unit, x, axis=0, edge_order=2))
-    weights: Array = CubicHermiteSpline(x, unit, slope)(at)
+    weights: Array = scipy.interpolate.CubicHermiteSpline(x, unit, slope)(at)
     return weights
 
 
@@ -202,7 +201,7 @@ def _moved(stress: Array, crossing: Crossing, by: Array) -> Array:
             indexing="ij",
         )  # fmt: skip
         for part in range(len(stress)):
-            shifted[part, k] = map_coordinates(stress[part, k], grid, order=1)
+            shifted[part, k] = scipy.ndimage.map_coordinates(stress[part, k], grid, order=1)
     return shifted
 
 

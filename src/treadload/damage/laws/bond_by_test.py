@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
+import scipy
 from numpy.typing import ArrayLike
-from scipy.optimize import least_squares
 
 from treadload.damage.laws.bond import BondStrength, BondUtilisation, InterfaceStrength
 from treadload.errors import InputError, positive
@@ -131,7 +131,7 @@ class TimedStrength(BondStrength):
 
         start = np.array([math.log(float(bears.mean())), 0.05, 0.1, 0.5])
         low, high = [-np.inf, -1.0, -0.5, 0.0], [np.inf, 1.0, 0.999, 5.0]
-        solved = least_squares(
+        solved = scipy.optimize.least_squares(
             lambda free: law(free) / bears - 1, start, bounds=(low, high), x_scale=[1, 0.01, 0.1, 0.5]
         )
         log, a, m, tangent = (

@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal, get_args
 
-from scipy.special import ndtri
+import scipy
 
 from treadload.damage.laws.conditions import CATALOGUE, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw, check_slope, check_strain
@@ -282,7 +282,7 @@ def risk_factor(risk: float, slope: float, scatter: float, thickness_scatter: fl
     risk: in (0, 1). slope: b. scatter: SN. thickness_scatter: Sh, m. Above 1 for a risk of more than a half.
     """
     spread = math.hypot(scatter, _PER_THICKNESS * thickness_scatter / abs(slope))
-    return float(10 ** (abs(slope) * float(ndtri(risk)) * spread))
+    return float(10 ** (abs(slope) * float(scipy.special.ndtri(risk)) * spread))
 
 
 def thickness_scatter(thickness: float) -> float:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from scipy.optimize import brentq
+import scipy
 
 from treadload.kernels.fracture.layers import Strip
 
@@ -24,7 +24,7 @@ def interface_singularity(cracked: Strip, ahead: Strip) -> float:
         square = 2 * (beta - alpha) / (1 + beta) * (1 - order) ** 2
         return math.cos(order * math.pi) - square - (alpha + beta**2) / (1 - beta**2)
 
-    return float(brentq(left, 1e-9, 1 - 1e-9, xtol=1e-12))
+    return float(scipy.optimize.brentq(left, 1e-9, 1 - 1e-9, xtol=1e-12))
 
 
 def dundurs(first: Strip, second: Strip) -> tuple[float, float]:

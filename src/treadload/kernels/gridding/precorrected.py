@@ -16,7 +16,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from scipy import sparse
+import scipy
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.lattice import Indices, Source, Spectrum, blocks, on_lattice
@@ -253,7 +253,7 @@ class _Stencils:
         weights = np.where(off_diagonal, away, 1.0).prod(axis=2) / np.where(off_diagonal, apart, 1).prod(axis=1)
         return cls(nodes, cell, place, first, weights)
 
-    def lattices(self) -> Iterator[tuple[float, int, Array | sparse.csr_array]]:
+    def lattices(self) -> Iterator[tuple[float, int, Array | scipy.sparse.csr_array]]:
         """First point, in cells, number of points, and the matrix (m, number) to the points, of each lattice.
 
         A small matrix is an array, which costs less to make.
@@ -265,12 +265,12 @@ class _Stencils:
         for k in range(self.nodes):
             here = node == k
             weights, places = self.weights[here], (points[here], cells[here] - start)
-            matrix: Array | sparse.csr_array
+            matrix: Array | scipy.sparse.csr_array
             if len(at) * count <= _SMALL:
                 matrix = np.zeros((len(at), count))
                 matrix[places] = weights
             else:
-                matrix = sparse.csr_array((weights, places), shape=(len(at), count))
+                matrix = scipy.sparse.csr_array((weights, places), shape=(len(at), count))
             yield float(start + self._at[k]), count, matrix
 
     def near(self, width: int) -> _Near:

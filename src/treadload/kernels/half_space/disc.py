@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.special import elliprc, elliprd, elliprf, elliprj
+import scipy
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.half_space.upright import Modes, UprightMedium
@@ -100,8 +100,8 @@ class _Integrals:
         s, m, rest = np.sqrt(s2), 4 * a * r / s2, d2 / s2
         rest = np.where(np.abs(rest) < _RIM, _RIM, rest)
         zero, ones = np.zeros_like(rest), np.ones_like(rest)
-        first = elliprf(zero, rest, ones)
-        part = elliprd(zero, rest, ones) / 3
+        first = scipy.special.elliprf(zero, rest, ones)
+        part = scipy.special.elliprd(zero, rest, ones) / 3
         second = first - m * part
         # ∫ J0 J0 and ∫ J1 J1 of arguments a t and r t under e^(-z t).
         i000 = 2 / (math.pi * s) * first
@@ -138,7 +138,7 @@ class _Integrals:
 def _third(rest: Any, p: Any) -> Any:
     """Carlson's R_J(0, rest, 1, p), p > 0; rest may be complex, off the negative real axis."""
     if not np.iscomplexobj(rest):
-        return elliprj(np.zeros_like(rest), rest, np.ones_like(rest), p)
+        return scipy.special.elliprj(np.zeros_like(rest), rest, np.ones_like(rest), p)
     # SciPy's wants arguments in the right half of the plane: duplication moves them there.
     x, y, z, p = np.zeros_like(rest), rest, np.ones_like(rest), p + 0j
     total, share = np.zeros_like(rest), 1.0
@@ -146,7 +146,7 @@ def _third(rest: Any, p: Any) -> Any:
         root_x, root_y, root_z, root_p = np.sqrt(x), np.sqrt(y), np.sqrt(z), np.sqrt(p)
         moved = root_x * root_y + root_x * root_z + root_y * root_z
         d = (root_p + root_x) * (root_p + root_y) * (root_p + root_z)
-        total += share * 6 / d * elliprc(np.ones_like(d), 1 + (p - x) * (p - y) * (p - z) / d**2)
+        total += share * 6 / d * scipy.special.elliprc(np.ones_like(d), 1 + (p - x) * (p - y) * (p - z) / d**2)
         share /= 4
         x, y, z, p = ((term + moved) / 4 for term in (x, y, z, p))
-    return total + share * elliprj(x, y, z, p)
+    return total + share * scipy.special.elliprj(x, y, z, p)

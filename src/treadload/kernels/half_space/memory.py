@@ -18,7 +18,7 @@ import itertools
 from collections.abc import Callable, Sequence
 
 import numpy as np
-from scipy.special import ive
+import scipy
 
 from treadload.kernels.arrays import Array
 
@@ -71,7 +71,7 @@ def rule(nodes: Array, start: float, end: float, lengths: Array) -> Array:
     ratio = np.minimum(half / lengths, _SHORTEST)
     order = np.arange(nodes.size)
     # ∫ P_k(t) exp(-λ(1 + t)) dt over [-1, 1] is a modified spherical Bessel function.
-    bessel = np.sqrt(np.pi / (2 * ratio))[:, None] * ive(order + 0.5, ratio[:, None])
+    bessel = np.sqrt(np.pi / (2 * ratio))[:, None] * scipy.special.ive(order + 0.5, ratio[:, None])
     moments = 2 * (-1.0) ** order * bessel * (ratio * np.exp(-start / lengths))[:, None]
     legendre = np.polynomial.legendre.legvander(nodes, nodes.size - 1)
     weights: Array = np.linalg.solve(legendre.T, moments.T).T

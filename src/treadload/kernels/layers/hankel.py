@@ -16,8 +16,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.polynomial.chebyshev import chebpts1, chebvander
-from scipy.special import j0, j1
 
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
@@ -112,11 +112,11 @@ def integrals(distances: dict[float, Array], planes: AxialPlanes, length: float)
         plain = np.stack([kernel[:, 1] / k, kernel[:, 3], kernel[:, 0]], axis=1).reshape(-1, len(k))
         radial = np.stack([kernel[:, 0], kernel[:, 2] * k], axis=1).reshape(-1, len(k))
         for radius, r in distances.items():
-            load = weight * radius * j1(k * radius)
+            load = weight * radius * scipy.special.j1(k * radius)
             turn = np.outer(k, r)
             # J1(x) / x, one half on the axis.
-            ratio = np.divide(j1(turn), turn, out=np.full_like(turn, 0.5), where=turn > 0)
-            sums[radius][:, :3] += ((plain * load) @ j0(turn)).reshape(count, 3, -1)
+            ratio = np.divide(scipy.special.j1(turn), turn, out=np.full_like(turn, 0.5), where=turn > 0)
+            sums[radius][:, :3] += ((plain * load) @ scipy.special.j0(turn)).reshape(count, 3, -1)
             sums[radius][:, 3:] += ((radial * load) @ ratio).reshape(count, 2, -1)
     return sums
 

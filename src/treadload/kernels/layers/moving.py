@@ -15,7 +15,7 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import spherical_jn
+import scipy
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.points import Points
@@ -102,7 +102,9 @@ class Path:
         for half_length in np.unique(half):
             # ∫ Pₙ(u) exp(i w u) du = 2 iⁿ jₙ(w).
             order = np.arange(_POINTS)[:, None]
-            bessel = spherical_jn(order, np.abs(half_length * at)) * np.where(at < 0, -1.0, 1.0) ** order
+            bessel = (
+                scipy.special.spherical_jn(order, np.abs(half_length * at)) * np.where(at < 0, -1.0, 1.0) ** order
+            )
             rows = half == half_length
             lines[rows] = (legendre[rows] * (2 * order.T + 1)) @ (1j**order * bessel)
         # Spectra count phases from x = 0.

@@ -19,8 +19,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.polynomial.chebyshev import chebpts1, chebvander
-from scipy.special import gamma, hyp2f1, j0, jv
 
 from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.layers.layered import Body, Compliance, Scalars, Slab
@@ -80,7 +80,7 @@ class Plate:
             k = (0.5 * np.diff(ends)[:, None] * at + 0.5 * (ends[1:] + ends[:-1])[:, None]).ravel()
             w = (0.5 * np.diff(ends)[:, None] * share).ravel()
             interpolate = chebvander((2 * k - low - high) / (high - low), _POINTS - 1) @ to_series
-            turned = j0(np.outer(points, k)) * w
+            turned = scipy.special.j0(np.outer(points, k)) * w
             weights.append(np.stack([(turned * _transform(order, k * radius)) @ interpolate for order in orders]))
         return cls(np.concatenate(nodes), np.concatenate(weights, axis=-1), direct, len(inside))
 
@@ -107,15 +107,23 @@ class Plate:
 
 def _transform(order: float, x: Array) -> Array:
     """Transform of μ (1 - r²/a²)^(μ-1) / (π a²), a load of 1 N, at x = k a: Γ(μ+1) (2/x)^μ J_μ(x)."""
-    return np.asarray(gamma(order + 1) * (2 / x) ** order * jv(order, x))
+    return np.asarray(scipy.special.gamma(order + 1) * (2 / x) ** order * scipy.special.jv(order, x))
 
 
 def _half_space(order: float, radius: float, r: float) -> float:
     """∫ T(k a) J0(k r) dk from 0 to ∞, 1/m."""
-    scale = gamma(order + 1) * math.sqrt(math.pi)
+    scale = scipy.special.gamma(order + 1) * math.sqrt(math.pi)
     if r <= radius:
-        return float(scale / (radius * gamma(order + 0.5)) * hyp2f1(0.5, 0.5 - order, 1.0, (r / radius) ** 2))
-    return float(scale / (r * gamma(order + 1) * gamma(0.5)) * hyp2f1(0.5, 0.5, order + 1, (radius / r) ** 2))
+        return float(
+            scale
+            / (radius * scipy.special.gamma(order + 0.5))
+            * scipy.special.hyp2f1(0.5, 0.5 - order, 1.0, (r / radius) ** 2)
+        )
+    return float(
+        scale
+        / (r * scipy.special.gamma(order + 1) * scipy.special.gamma(0.5))
+        * scipy.special.hyp2f1(0.5, 0.5, order + 1, (radius / r) ** 2)
+    )
 
 
 @dataclass(frozen=True, eq=False)

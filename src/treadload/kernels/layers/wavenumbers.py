@@ -13,8 +13,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
-from scipy.interpolate import PPoly
-from scipy.special import j1
+import scipy
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.layers.layered import Scalars
@@ -94,7 +93,7 @@ def disc_spectrum(radius: float, pressure: float, x: float, y: float) -> Spectru
 
     def spectrum(kx: Array, ky: Array) -> ComplexArray:
         k = np.hypot(kx[None, :], ky[:, None])
-        size = (2 * math.pi * radius * pressure) * j1(k * radius) / k
+        size = (2 * math.pi * radius * pressure) * scipy.special.j1(k * radius) / k
         both = np.zeros((2, 3, len(ky), len(kx)), complex)
         both[0, 0] = size * np.outer(np.cos(ky * y), np.exp(-1j * kx * x))
         both[1, 0] = size * np.outer(-1j * np.sin(ky * y), np.exp(-1j * kx * x))
@@ -124,7 +123,7 @@ def tabulated(values: Callable[[Array], Array], smallest: float, largest: float)
     coefficients = np.tensordot(powers, samples, axes=1) / (width ** np.arange(count)[::-1])[:, None, None]
 
     def at(k: Array, functions: Sequence[int]) -> Array:
-        result: Array = PPoly(coefficients[..., list(functions)], edges)(np.log(k))
+        result: Array = scipy.interpolate.PPoly(coefficients[..., list(functions)], edges)(np.log(k))
         return result
 
     return at

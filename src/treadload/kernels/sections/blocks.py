@@ -14,7 +14,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg import cholesky, solve_triangular
+import scipy
 
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.sections.block_mesh import Block, BlockMesh
@@ -87,9 +87,9 @@ def _swept(mesh: BlockMesh, means: Array, first: IntArray, shear_modulus: float,
         behind[:, : brought.shape[1]] += brought
         forces = np.concatenate([behind, loads(2 * slab + 1, columns)])
         # Loads of the plane between two slabs are those of the first of them.
-        lower = cholesky(stiff[:kept, :kept], lower=True, overwrite_a=True, check_finite=False)
+        lower = scipy.linalg.cholesky(stiff[:kept, :kept], lower=True, overwrite_a=True, check_finite=False)
         both = np.concatenate([forces, stiff[:kept, kept:]], axis=1)
-        both = solve_triangular(lower, both, lower=True, overwrite_b=True, check_finite=False)
+        both = scipy.linalg.solve_triangular(lower, both, lower=True, overwrite_b=True, check_finite=False)
         forces, ahead = both[:, : 3 * columns], both[:, 3 * columns :]
         compliance[: 3 * columns, : 3 * columns] += forces.T @ forces
         left = stiff[kept:, kept:] - ahead.T @ ahead
@@ -97,8 +97,8 @@ def _swept(mesh: BlockMesh, means: Array, first: IntArray, shear_modulus: float,
         assert left.shape[0] == far
     last = loads(2 * mesh.slabs, count)
     last[:, : brought.shape[1]] += brought
-    lower = cholesky(left, lower=True, check_finite=False)
-    forces = solve_triangular(lower, last, lower=True, check_finite=False)
+    lower = scipy.linalg.cholesky(left, lower=True, check_finite=False)
+    forces = scipy.linalg.solve_triangular(lower, last, lower=True, check_finite=False)
     compliance += forces.T @ forces
     return compliance
 

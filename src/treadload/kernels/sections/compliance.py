@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from scipy.interpolate import CubicSpline
+import scipy
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.sections.elements import stiffness
@@ -131,9 +131,9 @@ class CellTable:
         return sums.reshape(-1, *self.compliance.shape[1:])
 
     @cached_property
-    def _spline(self) -> CubicSpline:
+    def _spline(self) -> scipy.interpolate.CubicSpline:
         shift = _SHIFT / self.height
-        return CubicSpline(np.log(self.waves + shift), np.diag(self.waves + shift), axis=0)
+        return scipy.interpolate.CubicSpline(np.log(self.waves + shift), np.diag(self.waves + shift), axis=0)
 
 
 def _shares(mesh: Mesh, edges: Array) -> Array:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq, minimize
+import scipy
 
 from treadload.errors import ConvergenceError
 from treadload.kernels.arrays import Array
@@ -115,7 +115,7 @@ class Fit:
             if sign * (bound - outside) <= 0:
                 ends.append(sign * math.inf)
                 continue
-            root = brentq(lambda value: self.profile(name, value) + DROP, inside, outside, xtol=1e-3)
+            root = scipy.optimize.brentq(lambda value: self.profile(name, value) + DROP, inside, outside, xtol=1e-3)
             ends.append(float(root))
         return ends[0], ends[1]
 
@@ -137,7 +137,7 @@ def _maximum(
         return -float(log_likelihood(sections, model.parameters(values), model.kind).sum())
 
     first = np.array([start.get(name, _START[name]) for name in free])
-    optimum = minimize(loss, first, method="L-BFGS-B", bounds=[_BOUNDS[name] for name in free])
+    optimum = scipy.optimize.minimize(loss, first, method="L-BFGS-B", bounds=[_BOUNDS[name] for name in free])
     if not np.isfinite(optimum.fun):
         raise ConvergenceError(f"the likelihood of {len(sections)} sections has no maximum: {optimum.message}")
     return {**fixed, **dict(zip(free, map(float, optimum.x), strict=True))}, -float(optimum.fun)

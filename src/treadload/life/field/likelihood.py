@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy.special import log_ndtr, ndtr
+import scipy
 
 from treadload.kernels.arrays import Array, IntArray
 from treadload.life.field.table import Interval
@@ -72,7 +72,7 @@ class Sections:
 
 def survival(age: Array, parameters: Parameters, medians: Array) -> Array:
     """Probability of no crack until an age, years; of age 0 it is 1, of inf 0."""
-    return np.asarray(ndtr(-_deviation(age, parameters, medians)))
+    return np.asarray(scipy.special.ndtr(-_deviation(age, parameters, medians)))
 
 
 def cracked_and_left(age: Array, parameters: Parameters, medians: Array) -> Array:
@@ -115,7 +115,7 @@ def log_likelihood(sections: Sections, parameters: Parameters, kind: Kind) -> Ar
         return between
     if kind == "left-truncated":
         clean = high > entry
-        return np.where(clean, between - log_ndtr(-_deviation(entry, parameters, medians)), 0.0)
+        return np.where(clean, between - scipy.special.log_ndtr(-_deviation(entry, parameters, medians)), 0.0)
     seen = np.where(high <= entry, _log(cracked_and_left(entry, parameters, medians)), between)
     return np.asarray(seen - _log(in_table(entry, parameters, medians)))
 
@@ -153,9 +153,9 @@ def _log_between(low: Array, high: Array, parameters: Parameters, medians: Array
     # The normal distribution mirrored: both ends on the side where it is small.
     mirrored = below > 0
     near, far = np.where(mirrored, -below, above), np.where(mirrored, -above, below)
-    whole = log_ndtr(near)
+    whole = scipy.special.log_ndtr(near)
     with np.errstate(divide="ignore", invalid="ignore"):
-        part = np.exp(log_ndtr(far) - whole)
+        part = np.exp(scipy.special.log_ndtr(far) - whole)
         return np.asarray(whole + np.log1p(-np.where(np.isfinite(part), np.minimum(part, 1 - 1e-16), 0.0)))
 
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy
 import xarray as xr
-from scipy.special import ndtr
 
 from treadload import variables
 from treadload.damage.life import Life
@@ -83,7 +83,7 @@ def reliability_dataset(
         "failure_probability": (("criterion", "year"), np.array([_share_above(row, needed) for row in every])),
         "failure_probability_first_order": (
             ("criterion", "year"),
-            np.array([ndtr(-np.interp(needed, row, _BETAS)) for row in curves]),
+            np.array([scipy.special.ndtr(-np.interp(needed, row, _BETAS)) for row in curves]),
         ),
         "importance": (("criterion", "input"), np.array([row[0][1] ** 2 for row in point])),
         "years_error": (("criterion", "risk"), _years_error(traffic, at_risk, missed)),
@@ -158,4 +158,4 @@ def _share_above(rising: Array, bounds: Array) -> Array:
 
 def _first_order_of(surface: Quadratic, beta: float) -> float:
     """Ln D at a distance β of the first order."""
-    return first_order(surface, float(ndtr(-beta)))[0]
+    return first_order(surface, float(scipy.special.ndtr(-beta)))[0]

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.special import ndtri
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -56,7 +56,7 @@ def first_order(surface: Quadratic, risk: float) -> tuple[float, Array]:
 
     risk: in (0, 1). α² are the shares of the inputs in the scatter; they sum to 1, and are 0 where nothing scatters.
     """
-    beta = -float(ndtri(risk))
+    beta = -float(scipy.special.ndtri(risk))
     slope = surface.gradient
     z = np.zeros_like(slope)
     for _ in range(_STEPS):

@@ -6,7 +6,7 @@ import math
 from typing import Literal
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.errors import InputError, positive
 from treadload.kernels import fft
@@ -59,7 +59,7 @@ def remove_outliers(texture: Texture, *, slope: float = 3.0) -> Texture:
     bad = spikes(heights, slope * texture.dx)
     size = (1, 5) if texture.is_profile else (5, 5)
     filled = np.where(np.isnan(heights), float(np.nanmedian(heights)), heights)
-    off = np.abs(heights - ndimage.median_filter(filled, size=size, mode="nearest"))
+    off = np.abs(heights - scipy.ndimage.median_filter(filled, size=size, mode="nearest"))
     usual = _GAUSSIAN * float(np.nanmedian(np.abs(heights - np.nanmedian(heights))))
     with np.errstate(invalid="ignore"):
         bad |= off > max(8 * usual, np.finfo(float).tiny)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.ndimage import gaussian_filter
+import scipy
 
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.tensors import matrices
@@ -82,7 +82,7 @@ def share_below(values: Array, weights: Array, share: float) -> float:
 
 def _outwards(inside: BoolArray, x: Array, y: Array, z: Array) -> Array:
     """Where a smoothed stone falls off, (nz, ny, nx, 3) in x, y, z."""
-    smooth = gaussian_filter(inside.astype(float), _SMOOTH, mode="nearest")
+    smooth = scipy.ndimage.gaussian_filter(inside.astype(float), _SMOOTH, mode="nearest")
     slopes = np.zeros((*inside.shape, 3))
     for component, (axis, at) in enumerate(((2, x), (1, y), (0, z))):
         if len(at) > 1:

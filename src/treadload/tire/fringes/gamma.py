@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from scipy.optimize import brentq
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
@@ -49,7 +49,7 @@ def gamma_of(ratio: float, contrast: float = 1.0) -> float:
             f"the second harmonic of the fringes is {ratio:.3f} of the first, which no gamma between {low} and "
             f"{high} makes; look for unequal steps, or give gamma as a number"
         )
-    return float(brentq(lambda gamma: second_harmonic(gamma, contrast) - ratio, low, high, xtol=1e-6))
+    return float(scipy.optimize.brentq(lambda gamma: second_harmonic(gamma, contrast) - ratio, low, high, xtol=1e-6))
 
 
 def phase_error(shifts: Sequence[float] | None, count: int, gamma: float, contrast: float = 1.0) -> Array:

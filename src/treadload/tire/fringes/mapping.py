@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
@@ -54,8 +54,8 @@ def not_steep(height: Array, pixel: float, steepest: float) -> BoolArray:
     A pixel that sees both sides of a wall sees neither's height.
     """
     finite = np.isfinite(height)
-    high = ndimage.maximum_filter(np.where(finite, height, -np.inf), 3)
-    low = ndimage.minimum_filter(np.where(finite, height, np.inf), 3)
+    high = scipy.ndimage.maximum_filter(np.where(finite, height, -np.inf), 3)
+    low = scipy.ndimage.minimum_filter(np.where(finite, height, np.inf), 3)
     within: BoolArray = high - low <= 2 * math.tan(steepest) * pixel
     return within & finite
 
@@ -79,8 +79,8 @@ def onto_cells(x: Array, y: Array, height: Array, deviation: Array, spacing: flo
     for values in (mean, spread):
         finite = np.isfinite(values)
         around = np.ones((3, 3))
-        near = ndimage.convolve(finite.astype(float), around, mode="constant")
-        total = ndimage.convolve(np.where(finite, values, 0.0), around, mode="constant")
+        near = scipy.ndimage.convolve(finite.astype(float), around, mode="constant")
+        total = scipy.ndimage.convolve(np.where(finite, values, 0.0), around, mode="constant")
         between = ~finite & (near >= _ENOUGH)
         values[between] = total[between] / near[between]
         filled = max(filled, int(between.sum()) if values is mean else 0)

@@ -9,7 +9,7 @@ from itertools import pairwise
 from typing import Any
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.errors import InputError, how_to_install
 from treadload.kernels.arrays import Array, BoolArray
@@ -139,7 +139,7 @@ def unwrap_over_picture(phase: Array, anchor: tuple[int, int], value: float) -> 
             f"the anchor at row {row}, column {column} has no phase: it must lie on a bright place of the "
             f"{rows} x {columns} pixels"
         )
-    parts, _ = ndimage.label(valid)
+    parts, _ = scipy.ndimage.label(valid)
     here: BoolArray = parts == parts[row, column]
     unwrap: Any = unwrap_phase
     smooth = np.asarray(unwrap(np.ma.array(np.where(here, phase, 0.0), mask=~here), rng=0).filled(np.nan))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from treadload.kernels.arrays import Array
 
@@ -100,7 +100,7 @@ def _candidates(points: Array, normals: Array) -> list[tuple[Array, Array]]:
 
 def _smoothed_normals(points: Array, normals: Array, at: Array) -> Array:
     """Mean direction of the normals near each point, as lines without sign."""
-    tree = cKDTree(points)
+    tree = scipy.spatial.cKDTree(points)
     near = tree.query(at, k=min(SMOOTHING_NEIGHBOURS, len(points)))[1]
     around = normals[near]
     spread = np.einsum("nki,nkj->nij", around, around)

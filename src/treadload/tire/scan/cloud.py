@@ -5,9 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.spatial import cKDTree
 
 from treadload.errors import GeometryError
 from treadload.kernels.arrays import Array
@@ -88,7 +87,7 @@ def _single(points: Array) -> NDArray[np.int64]:
 
 def _normals(sample: Array, count: int) -> tuple[Array, float]:
     """Normals of planes through the neighbours of each of a few points, and the distance between all `count`."""
-    distance, near = cKDTree(sample).query(sample, k=NEIGHBOURS)
+    distance, near = scipy.spatial.cKDTree(sample).query(sample, k=NEIGHBOURS)
     around = sample[near] - sample[near].mean(axis=1, keepdims=True)
     normal = np.linalg.eigh(np.einsum("nki,nkj->nij", around, around))[1][:, :, 0]
     # A circle round a point up to its farthest neighbour holds them all.
@@ -121,7 +120,7 @@ def bridged(field: Array) -> Array:
     """The field (rows, columns) with runs of up to two empty cells along the turn filled from both their ends."""
     finite = np.isfinite(field)
     holes = ~finite
-    runs, count = ndimage.label(holes, structure=[[0, 0, 0], [1, 1, 1], [0, 0, 0]])
+    runs, count = scipy.ndimage.label(holes, structure=[[0, 0, 0], [1, 1, 1], [0, 0, 0]])
     length = np.bincount(runs.ravel(), minlength=count + 1)
     short = holes & (length[runs] <= BRIDGED)
     short[:, 0] = short[:, -1] = False

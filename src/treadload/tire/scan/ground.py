@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.sparse import coo_array
+import scipy
 from scipy.sparse.csgraph import connected_components
 
 from treadload.errors import GeometryError
@@ -57,7 +57,9 @@ def largest_piece(mesh: Mesh, name: str) -> tuple[Mesh, int]:
     Raises GeometryError when another piece is nearly as large and lies beside it: a second tire.
     """
     faces, count = mesh.faces, len(mesh.vertices)
-    links = coo_array((np.ones(2 * len(faces)), (faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel())), (count, count))
+    links = scipy.sparse.coo_array(
+        (np.ones(2 * len(faces)), (faces[:, [0, 1]].ravel(), faces[:, [1, 2]].ravel())), (count, count)
+    )
     number, piece = connected_components(links, directed=False)
     if number == 1:
         return mesh, 0

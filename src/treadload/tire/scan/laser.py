@@ -9,9 +9,9 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
+import scipy
 import xarray as xr
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from treadload.describing import Described
 from treadload.errors import GeometryError, InputError
@@ -191,8 +191,8 @@ def _between(mean: Array) -> Array:
     """Cells without a point, from their neighbours where five or more have one."""
     finite = np.isfinite(mean)
     around = np.ones((3, 3))
-    near = ndimage.convolve(finite.astype(float), around, mode="constant")
-    total = ndimage.convolve(np.where(finite, mean, 0.0), around, mode="constant")
+    near = scipy.ndimage.convolve(finite.astype(float), around, mode="constant")
+    total = scipy.ndimage.convolve(np.where(finite, mean, 0.0), around, mode="constant")
     empty: NDArray[np.bool_] = ~finite & (near >= 5)
     out = mean.copy()
     out[empty] = total[empty] / near[empty]

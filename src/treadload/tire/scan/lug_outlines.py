@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.errors import InputError
 from treadload.kernels import fft
@@ -57,7 +57,7 @@ def scanned_blocks(surface: ScanSurface, thickness: float) -> tuple[BlockPattern
     count = round(period / _STEP)
     x = (np.arange(-_BESIDE * count, (_BESIDE + 1) * count) + 0.5) * period / count
     near = _unrolled(surface, caster, rows, x, _level(around))
-    labels, _ = ndimage.label(near.land)
+    labels, _ = scipy.ndimage.label(near.land)
     blocks: list[TreadBlock] = []
     for label in range(1, int(labels.max()) + 1):
         block = _block(near, np.asarray(labels == label), period, thickness)
@@ -171,7 +171,7 @@ Four = tuple[float, float, float, float]
 def _sides(near: _Unrolled, outline: BoolArray, corners: Array, thickness: float) -> tuple[Four, Four]:
     """Height of the undertread at the four sides and how far it reaches, m; 0 beside the tread."""
     step = (float(near.y[1] - near.y[0]), float(near.x[1] - near.x[0]))
-    apart = ndimage.distance_transform_edt(~(near.land & ~outline), sampling=step)
+    apart = scipy.ndimage.distance_transform_edt(~(near.land & ~outline), sampling=step)
     floors, reach = [], []
     for start, stop in zip(corners, np.roll(corners, -1, axis=0), strict=True):
         along = (stop - start) / np.linalg.norm(stop - start)

@@ -6,8 +6,8 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.tire.quality import GrooveMeasure
@@ -58,7 +58,7 @@ def crown(top: Array, facet_sag: float, unrolled: Array, largest: float) -> floa
 def without_spikes(meridian: Array) -> Array:
     """A meridian without the places, one or two cells wide, that stand out; 0 where it is not known."""
     filled = np.where(np.isfinite(meridian), meridian, 0.0)
-    return np.asarray(ndimage.median_filter(filled, size=5, mode="nearest"), dtype=np.float64)
+    return np.asarray(scipy.ndimage.median_filter(filled, size=5, mode="nearest"), dtype=np.float64)
 
 
 def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> float:
@@ -103,7 +103,7 @@ def between_walls(y: Array, top: Array, margin: float) -> Array:
     """(ny,) radius of ribs and lugs carried on by a margin, m, over the walls beside them; top as it is elsewhere."""
     cells = 2 * math.ceil(margin / float(y[1] - y[0])) + 1
     height = np.where(np.isfinite(top), top, np.nanmin(top))
-    return np.where(is_level(y, top, margin, STEEPEST), height, ndimage.maximum_filter1d(height, cells))
+    return np.where(is_level(y, top, margin, STEEPEST), height, scipy.ndimage.maximum_filter1d(height, cells))
 
 
 def is_level(y: Array, top: Array, margin: float, steepest: float) -> BoolArray:
@@ -111,13 +111,13 @@ def is_level(y: Array, top: Array, margin: float, steepest: float) -> BoolArray:
     step = float(y[1] - y[0])
     slope = np.abs(np.gradient(top, step))
     steep = ~(slope <= steepest)
-    return np.asarray(~ndimage.maximum_filter1d(steep, 2 * math.ceil(margin / step) + 1), dtype=bool)
+    return np.asarray(~scipy.ndimage.maximum_filter1d(steep, 2 * math.ceil(margin / step) + 1), dtype=bool)
 
 
 def scatter(unrolled: Array, meridian: Array) -> Array:
     """(ny, nt) height over the median meridian, m, outside groove walls; NaN on them and where nothing is known."""
     slope = np.abs(np.gradient(meridian))
-    steep = ndimage.maximum_filter1d(np.where(np.isfinite(slope), slope, np.inf), 3) > 0.5e-3
+    steep = scipy.ndimage.maximum_filter1d(np.where(np.isfinite(slope), slope, np.inf), 3) > 0.5e-3
     out = unrolled - meridian[:, None]
     out[steep] = np.nan
     return np.asarray(out, dtype=np.float64)
@@ -162,8 +162,8 @@ def wide_voids(y: Array, top: Array) -> BoolArray:
     height = np.where(np.isfinite(top), top, np.nanmin(top) if np.isfinite(top).any() else 0.0)
     left, right = np.maximum.accumulate(height), np.maximum.accumulate(height[::-1])[::-1]
     low = np.minimum(left, right) - height
-    runs, count = ndimage.label(low > HOLLOW)
-    wide = [run[0] for run in ndimage.find_objects(runs, max_label=count) if np.ptp(y[run[0]]) > WIDEST]
+    runs, count = scipy.ndimage.label(low > HOLLOW)
+    wide = [run[0] for run in scipy.ndimage.find_objects(runs, max_label=count) if np.ptp(y[run[0]]) > WIDEST]
     out = np.zeros(len(y), dtype=bool)
     for columns in wide:
         out[columns] = True

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
 
 from treadload.kernels.arrays import Array, BoolArray
 
@@ -57,7 +57,7 @@ def _from_planes(flat: Array, tread: BoolArray) -> float:
     if len(points) < FEWEST:
         return math.nan
     at = points[:: max(1, len(points) // MOST_SAMPLES)]
-    near = points[cKDTree(points[:, :2]).query(at[:, :2], k=NEIGHBOURS)[1]]
+    near = points[scipy.spatial.cKDTree(points[:, :2]).query(at[:, :2], k=NEIGHBOURS)[1]]
     across = near[..., :2] - near[..., :2].mean(axis=1, keepdims=True)
     rise = near[..., 2] - near[..., 2].mean(axis=1, keepdims=True)
     spread = np.einsum("nki,nkj->nij", across, across)
@@ -93,7 +93,7 @@ def apart(flat: Array, tread: BoolArray) -> float:
     if len(points) < FEWEST:
         return math.nan
     at = points[:: max(1, len(points) // MOST_SAMPLES)]
-    farthest = cKDTree(points).query(at, k=9)[0][:, -1]
+    farthest = scipy.spatial.cKDTree(points).query(at, k=9)[0][:, -1]
     return math.sqrt(math.pi * float(np.median(farthest)) ** 2 / 8)
 
 
@@ -124,7 +124,7 @@ def smoothed(flat: Array, use: BoolArray, length: float, noise: float) -> Array:
     extent = np.ptp(points[:, :2], axis=0)
     dense = math.pi * (REACH * length) ** 2 * len(points) / max(float(extent.prod()), 1e-12)
     sample = points[:: max(1, math.ceil(dense / MOST_NEIGHBOURS))]
-    tree = cKDTree(sample[:, :2])
+    tree = scipy.spatial.cKDTree(sample[:, :2])
     count = min(2 * MOST_NEIGHBOURS, len(sample))
     where = np.flatnonzero(use)
     for start in range(0, len(points), 20_000):

@@ -6,9 +6,8 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
-from scipy.sparse import csr_array
 from scipy.sparse.csgraph import connected_components
 
 from treadload.kernels.arrays import Array, BoolArray
@@ -61,12 +60,12 @@ def without_needles(mesh: Mesh) -> tuple[Mesh, Moved]:
     return replace(mesh, vertices=moved, faces=mesh.faces[keep]), Moved(chosen, points[chosen])
 
 
-def _links(mesh: Mesh) -> csr_array:
+def _links(mesh: Mesh) -> scipy.sparse.csr_array:
     """Matrix (n, n) with a 1 where two vertices share an edge."""
     edge = mesh.faces[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     both = np.concatenate([edge, edge[:, ::-1]])
     n = len(mesh.vertices)
-    links = csr_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=(n, n))
+    links = scipy.sparse.csr_array((np.ones(len(both)), (both[:, 0], both[:, 1])), shape=(n, n))
     links.data[:] = 1.0
     return links
 
@@ -98,7 +97,7 @@ def _needles(mesh: Mesh, ignore: BoolArray) -> BoolArray:
     return np.asarray(maybe & closed, dtype=bool)
 
 
-def put_back(points: Array, links: csr_array, wild: BoolArray) -> tuple[Array, BoolArray]:
+def put_back(points: Array, links: scipy.sparse.csr_array, wild: BoolArray) -> tuple[Array, BoolArray]:
     """Points (n, k) with the wild ones at the median of their neighbours, from outside in; and which are known."""
     points, settled = points.copy(), ~wild
     left = list(np.flatnonzero(wild))
@@ -210,7 +209,7 @@ def tread_reference(vertices: Array, y: Array, top: Array, turn: Array, theta: A
     step = float(y[1] - y[0])
     cells = 2 * math.ceil(BESIDE / step) + 1
     finite = np.isfinite(top) & (top > floor)
-    height = ndimage.maximum_filter1d(np.where(finite, top, -np.inf), cells)
+    height = scipy.ndimage.maximum_filter1d(np.where(finite, top, -np.inf), cells)
     slope = np.gradient(np.where(np.isfinite(height), height, 0.0), step)
     usable = np.isfinite(height) & (np.abs(slope) < STEEPEST)
     over = np.where(finite[:, None], turn - top[:, None], np.nan)
@@ -219,7 +218,7 @@ def tread_reference(vertices: Array, y: Array, top: Array, turn: Array, theta: A
     high[seen] = row_quantile(over[:, seen].T, 0.9)
     # Over 45°, the higher part: the turn itself where lugs leave gaps.
     window = max(3, round(len(theta) / 8))
-    run = ndimage.percentile_filter(high, 75, size=window, mode="wrap")
+    run = scipy.ndimage.percentile_filter(high, 75, size=window, mode="wrap")
     across = np.interp(vertices[:, 1], y, np.where(usable, height, np.nan), left=np.nan, right=np.nan)
     angle = np.arctan2(vertices[:, 0], vertices[:, 2]) % (2 * np.pi)
     return np.asarray(across + np.interp(angle, theta, run, period=2 * np.pi), dtype=np.float64)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from scipy import ndimage
+import scipy
 
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
@@ -293,8 +293,8 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
             "axle; scan more of the tire, or check that the file holds one"
         )
     # A box reaches its outer radius with its corners only; a tire that was scanned in parts has few of them.
-    holes, count = ndimage.label(~np.tile(np.isfinite(seen.turn).any(axis=0), 2))
-    gaps = [run[0] for run in ndimage.find_objects(holes, max_label=count)]
+    holes, count = scipy.ndimage.label(~np.tile(np.isfinite(seen.turn).any(axis=0), 2))
+    gaps = [run[0] for run in scipy.ndimage.find_objects(holes, max_label=count)]
     corners = sum(gap.stop - gap.start > CORNER for gap in gaps if 0 < gap.start < seen.turn.shape[1])
     if corners >= CORNERS:
         raise GeometryError(
@@ -308,8 +308,8 @@ def _check_seen(seen: _Unrolled, name: str) -> None:
                 f"hide its tread of {EXTENT_DROP * 1e3:.0f} mm; export the mesh finer"
             )
         high = np.asarray(seen.top > seen.crown - EXTENT_DROP)
-    runs, count = ndimage.label(~high)
-    gaps = [run[0] for run in ndimage.find_objects(runs, max_label=count)]
+    runs, count = scipy.ndimage.label(~high)
+    gaps = [run[0] for run in scipy.ndimage.find_objects(runs, max_label=count)]
     wide = [gap for gap in gaps if gap.start > 0 and gap.stop < len(high) and np.ptp(seen.y[gap]) > APART]
     for gap in wide:
         left, right = high[: gap.start].sum(), high[gap.stop :].sum()
@@ -331,7 +331,7 @@ def _check_round(seen: _Unrolled, roundness: float, name: str) -> None:
     tops = np.full(len(seen_columns), -np.inf)
     tops[seen_columns] = np.nanmax(seen.turn[:, seen_columns], axis=0)
     window = round(LUG_WINDOW / (seen.theta[1] - seen.theta[0]))
-    tops = ndimage.maximum_filter1d(tops, window, mode="wrap")[seen_columns]
+    tops = scipy.ndimage.maximum_filter1d(tops, window, mode="wrap")[seen_columns]
     middle = float(np.median(tops))
     out = float(np.quantile(np.abs(tops - middle), 0.9))
     if out > roundness * seen.crown:

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Literal
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
-from scipy import ndimage
 
 from treadload.errors import GeometryError
 from treadload.grid import Grid
@@ -188,7 +188,7 @@ class ScanSurface:
         low, _, _ = self._cast(grid)
         radius = self.report.crown_radius
         level = np.where(np.isfinite(low), low + radius - np.sqrt(radius**2 - grid.x**2), -np.inf)
-        smooth = ndimage.median_filter(level, size=(1, 5), mode="nearest")
+        smooth = scipy.ndimage.median_filter(level, size=(1, 5), mode="nearest")
         finite = smooth[np.isfinite(smooth)]
         if finite.size == 0:
             raise GeometryError(
@@ -205,7 +205,7 @@ class ScanSurface:
         """Fraction of the tread in the extent that was met by rays from the road, and the number of holes."""
         _, missing, predicted = self._cast(Grid.centred(*self.extent, STANDARD_SPACING))
         tread = np.isfinite(predicted)
-        return 1 - float(missing.sum() / max(1, tread.sum())), int(ndimage.label(missing)[1])
+        return 1 - float(missing.sum() / max(1, tread.sum())), int(scipy.ndimage.label(missing)[1])
 
     @property
     def deepest(self) -> float:
