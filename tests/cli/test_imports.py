@@ -1,4 +1,4 @@
-"""Which libraries a command loads before it has anything to solve: the cost of a cold start."""
+"""Which libraries a command loads before it solves anything: the cost of a cold start."""
 
 import subprocess
 import sys
