@@ -163,8 +163,8 @@ def _of_e57(path: Path) -> Triangles:
         import pye57
     except ImportError as error:
         raise InputError(
-            f"reading .e57 needs pye57, which is not installed; {how_to_install('clouds')}, or, where the library has "
-            "no wheel (Linux on ARM, macOS on Intel), export the points as .las or .ply"
+            f"reading .e57 needs pye57, which is not installed; {how_to_install('clouds')}, or, where the library "
+            "has no wheel (Linux on ARM, macOS on Intel), export the points as .las or .ply"
         ) from error
     _check_e57_header(path)
     with reading(f"scan file {path.name!r}", "E57"), pye57.E57(str(path)) as file:
