@@ -129,7 +129,7 @@ def test_the_first_case_is_one_and_names_every_key_of_its_tables(kind):
         # Tables of their own, and the footprint, stand under their headings; a tire's rest in the case of a wheel.
         rest = {"tire", "pavement", "rolling", "footprint", "response", "damage", "layers", "traffic", "climate"}
         rest |= {"criteria", "classes", "calibration", "data", "passes", "aggregates", "reliability", "growth"}
-        rest |= {"texture", "crossing", "uniform", "pitch", "remedies"}
+        rest |= {"texture", "crossing", "uniform", "pitch", "remedies", "field_shift"}
         rest |= {"indentation", "drum", "rutting", "modulus_correlation"}
         if not (kind != "run" and "[tire]" in words):
             assert missing <= rest, (words, missing)

@@ -21,10 +21,12 @@ from treadload.composing import BaseResult, dataset_of, result_classes
 from treadload.damage import Climate, Traffic, Wander
 from treadload.damage.climate import TypicalDays
 from treadload.damage.criterion import Criterion
+from treadload.damage.field_shift import field_shifts
 from treadload.damage.miner import miner
 from treadload.damage.pitch import respond_to_pitch
 from treadload.damage.scatter import Scatter
 from treadload.damage.verdict import with_error
+from treadload.life.field.prediction import HARDENING
 from treadload.life.layered_climate import climate_fields
 from treadload.life.reliability.fields import Fit, reliability_dataset
 from treadload.life.reliability.inputs import inputs_of
@@ -302,7 +304,31 @@ def pitch_passage():
     return tl.contact.solve_pitch(tire, ROAD, wheel, spacing=8e-3, positions=4, periodic=0.5)
 
 
+def field_years():
+    """Of a life whose first criterion reads the surface."""
+    made = life()
+    lines = {
+        "life_years_fresh_line": ("criterion", [30.0, math.nan]),
+        "life_years_aged_line": ("criterion", [9.0, math.nan]),
+    }
+    attrs = {"surface_lines": json.dumps({"top": ["fresh", "aged"]})}
+    made = replace(made, dataset=made.dataset.assign(lines).assign_attrs(attrs))
+    return tl.life.field_years(made, tl.Pavement.from_catalogue("6 BBSG3 / 18 GB3 / PF3"), field_shifts["LTPP"])
+
+
+@cache
+def field_bench():
+    table = tl.life.field_tables["LTPP"].at(np.arange(60))
+    ages = np.exp(np.random.default_rng(1).normal(6, 1, 60))
+    variants = {HARDENING: {0.0: ages, 1.0: ages**0.5}}
+    mechanics = tl.life.Predictions(table.sections, ages, 2 * ages, variants=variants, about=("made up",))
+    return tl.life.field_bench(table, mechanics)
+
+
 MADE = {
+    "FieldYears": field_years,
+    "FieldLook": lambda: tl.life.field_look("LTPP"),
+    "FieldBench": field_bench,
     "PitchPassage": pitch_passage,
     "PitchResponse": lambda: respond_to_pitch(pitch_passage(), ROAD, depths=[0.0, 0.02]),
     "Contact": contact,
@@ -357,6 +383,7 @@ MADE = {
     "Fields": lambda: Fields(tl.damage.compute_quantities(response())),
 }
 FIGURES = {
+    "FieldYears": "years", "FieldLook": "shares", "FieldBench": "shares",
     "Contact": "pressure", "Response": "strain_directions", "Verdict": "passes", "BondVerdict": "utilisation",
     "Life": "years", "TransientResult": "history", "TurnResult": "history", "CreepCurve": "forces",
     "BondComparison": "lives", "Sensitivity": "inputs", "Reliability": "years", "ThicknessDesign": "lives",

@@ -3,6 +3,7 @@
 from treadload.damage.climate import Climate, Season
 from treadload.damage.cracks import crack_rose, envelope
 from treadload.damage.criterion import Criterion
+from treadload.damage.field_shift import FieldShift, field_shifts, read_field_shifts
 from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
 from treadload.damage.growth import CrackGrowth, FromStrength, Growth, ParisLaw
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
@@ -82,6 +83,7 @@ __all__ = [
     "Extension",
     "FatigueLaw",
     "FatigueLine",
+    "FieldShift",
     "FittedLine",
     "FrenchBituminous",
     "FrenchHydraulic",
@@ -135,6 +137,7 @@ __all__ = [
     "distortion_work",
     "envelope",
     "equivalent_axles",
+    "field_shifts",
     "fit_fatigue_line",
     "granular_modulus",
     "interface_fields",
@@ -146,6 +149,7 @@ __all__ = [
     "peak",
     "polishing_work",
     "quantities_listed",
+    "read_field_shifts",
     "residual_after",
     "subgrade_modulus",
     "tearing_work",

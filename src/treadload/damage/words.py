@@ -14,6 +14,7 @@ import xarray as xr
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import HORIZONTAL, NONE, ORIENTATIONS, opens_down
 from treadload.damage.criterion import Criterion
+from treadload.damage.field_shift import DEFAULT, field_shifts
 from treadload.damage.laws.conditions import conditions_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.validity import range_warnings
@@ -112,6 +113,9 @@ def life_rows(data: xr.Dataset, criteria: Sequence[Criterion], traffic: Traffic)
     rows += [row("group_factor", text) for text in json.loads(data.attrs.get("groups", "[]"))]
     causes = [cause_in_words(data, criterion.name) for criterion in criteria]
     rows += [row("first_crack_cause", text) for text in causes if text]
+    if "surface_lines" in data.attrs:
+        shift = field_shifts[DEFAULT]
+        rows.append(row("roads_show", f"{shift.roads_show}; {shift.ranks}"))
     return rows + rut_rows(data)
 
 
@@ -154,7 +158,9 @@ def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:
     """What ends a road first, a criterion or `RUT`, and how that compares with the design life. data: of a `Life`."""
     if math.isinf(years):
         return "no criterion ever fails under this traffic."
-    return " ".join(filter(None, (_ends(data, governing, years), _far(data, governing))))
+    of_surface = governing in json.loads(data.attrs.get("surface_lines", "{}"))
+    caveat = "Years at the surface are no forecast: see what roads show." if of_surface else ""
+    return " ".join(filter(None, (_ends(data, governing, years), caveat, _far(data, governing))))
 
 
 def _far(data: xr.Dataset, governing: str) -> str:

@@ -12,6 +12,14 @@ from treadload.plots.curve import creep_curves
 from treadload.plots.design import design_thicknesses
 from treadload.plots.energy import dissipated_energy
 from treadload.plots.equivalents import standard_axles
+from treadload.plots.field import (
+    field_look_shares,
+    field_power,
+    field_shares,
+    field_survivors,
+    field_transform,
+    field_years_range,
+)
 from treadload.plots.first import first_places
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.fringes import fringe_scan
@@ -77,6 +85,12 @@ __all__ = [
     "drum_contact",
     "enveloped_pressure",
     "fatigue_line",
+    "field_look_shares",
+    "field_power",
+    "field_shares",
+    "field_survivors",
+    "field_transform",
+    "field_years_range",
     "first_places",
     "fitted_basins",
     "fringe_scan",

@@ -22,6 +22,7 @@ from treadload.steps.life import LifeStep
 from treadload.steps.rutting import RuttingStep
 from treadload.steps.sensitivity import SensitivityStep
 from treadload.steps.reliability import ReliabilityStep
+from treadload.steps.field_shift import FieldShiftStep
 from treadload.steps.growth import GrowthStep
 from treadload.steps.equivalents import EquivalentsStep
 from treadload.steps.remedies import RemediesStep
@@ -41,7 +42,8 @@ Case.take_steps(())
 
 __all__ = [
     "AggregatesStep", "BowlStep", "CalibrationStep", "ContactStep", "CrossingStep", "DamageStep", "DrumStep",
-    "EnvelopingStep", "EquivalentsStep", "FootprintStep", "GrowthStep", "IndentationStep", "LifeStep", "Options",
+    "EnvelopingStep", "EquivalentsStep", "FieldShiftStep", "FootprintStep", "GrowthStep",
+    "IndentationStep", "LifeStep", "Options",
     "Outline", "PassesStep", "PitchStep", "Progress", "ReliabilityStep", "RemediesStep", "ResponseStep", "Result",
     "RuttingStep", "Scene", "Script", "SensitivityStep", "SlicesStep", "Source", "Step", "StructureFile",
     "TextureStep",

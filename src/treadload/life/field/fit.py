@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import scipy
@@ -59,8 +60,7 @@ class Model:
 class Fit:
     """The parameters of a model that make a table most likely.
 
-    values: ln of level, scatter and lag, and the power, by name. errors: standard errors of these, from the
-    curvature. log_likelihood: at the maximum, nats.
+    values: ln of level, scatter and lag, and the power, by name. log_likelihood: at the maximum, nats.
     """
 
     model: Model
@@ -73,9 +73,9 @@ class Fit:
         """Level, scatter, lag and power."""
         return self.model.parameters(self.values)
 
-    @property
-    def errors(self) -> dict[str, float]:
-        """Standard errors of the values from the curvature of the log likelihood; NaN where it has no maximum."""
+    @cached_property
+    def covariance(self) -> Array:
+        """Covariance of the values by the curvature of the log likelihood; NaN where it has no maximum."""
         names = self.model.names
         at = np.array([self.values[name] for name in names])
         steps = _STEP * np.eye(len(names))
@@ -86,11 +86,15 @@ class Fit:
                 across = self._total(at + first - second) + self._total(at - first + second)
                 hessian[i, j] = (across - along) / (4 * _STEP**2)
         try:
-            variances = np.diag(np.linalg.inv(hessian))
+            inverse = np.linalg.inv(hessian)
         except np.linalg.LinAlgError:
-            variances = np.full(len(names), math.nan)
-        with np.errstate(invalid="ignore"):
-            return dict(zip(names, map(float, np.sqrt(variances)), strict=True))
+            return np.full_like(hessian, math.nan)
+        return np.asarray(inverse if np.all(np.diag(inverse) > 0) else np.full_like(hessian, math.nan))
+
+    @property
+    def errors(self) -> dict[str, float]:
+        """Standard errors of the values."""
+        return dict(zip(self.model.names, map(float, np.sqrt(np.diag(self.covariance))), strict=True))
 
     def _total(self, at: Array) -> float:
         values = dict(zip(self.model.names, at, strict=True))

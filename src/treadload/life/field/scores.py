@@ -106,7 +106,7 @@ def shares(folds: Folds, surveys: Sequence[Array], ages: Sequence[float], rows: 
 
     surveys: ages of all surveys of each section. ages: ends of the classes, years. rows: sections that count.
     """
-    chosen = range(len(folds.sections)) if rows is None else map(int, rows)
+    chosen = list(range(len(folds.sections)) if rows is None else map(int, rows))
     high = folds.sections.interval.high
     cells = []
     for low, end in pairwise(ages):

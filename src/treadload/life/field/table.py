@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Literal
 
 import numpy as np
@@ -41,7 +42,8 @@ class SectionTable:
     the interval of each event that the table knows, see `EVENTS`. thickness: of the asphalt (n,), m; traffic:
     standard axles a year (n,); mean_air: of the year (n,), °C; NaN where it is missing. family: of the base (n,), ""
     where it is missing. surveys: ages of all surveys of each section, years. title, source, doubts: of the table.
-    warnings: sentences about what is missing.
+    warnings: sentences about what is missing. predictions: file of ages
+    that mechanics predicted for them.
     """
 
     name: str
@@ -58,6 +60,7 @@ class SectionTable:
     source: str = field(default="", repr=False)
     doubts: tuple[str, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = field(default=(), repr=False)
+    predictions: Path | None = field(default=None, repr=False)
 
     def __len__(self) -> int:
         return len(self.sections)
@@ -86,6 +89,7 @@ class SectionTable:
             self.source,
             self.doubts,
             self.warnings,
+            self.predictions,
         )
 
     def check_fit(self) -> None:

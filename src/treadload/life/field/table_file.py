@@ -54,8 +54,8 @@ class TableFile:
     are read of the columns of the sections. section: columns that make the name of a section, in both files. columns:
     names of columns where they differ from `COLUMNS`. units: of columns where they differ: thickness "mm", "cm", "m"
     or "in"; traffic "1000/year" or "1/year"; mean_air "degC" or "degF". empty_crack: what an empty cell of a crack
-    means, "none seen" or "not recorded". title, source, doubts: of the table. priors: what the table does not tell,
-    see `Priors`.
+    means, "none seen" or "not recorded". title, source, doubts: of the table. predictions: file of ages that
+    mechanics predicted, see `write_predictions`. priors: what the table does not tell, see `Priors`.
     """
 
     name: str
@@ -68,6 +68,7 @@ class TableFile:
     title: str = ""
     source: str = ""
     doubts: tuple[str, ...] = ()
+    predictions: Path | None = None
 
     def column(self, meaning: str) -> str:
         """Name of a column in the file."""
@@ -132,7 +133,7 @@ def _table(file: TableFile) -> SectionTable:
             )
     table = SectionTable(
         file.name, tuple(rows.names), entry, last, events, thickness, traffic, mean_air, families, ages,
-        file.title, sentence(file.source), tuple(map(sentence, file.doubts)), tuple(warnings),
+        file.title, sentence(file.source), tuple(map(sentence, file.doubts)), tuple(warnings), file.predictions,
     )  # fmt: skip
     return table if kept.all() else table.at(kept)
 
