@@ -82,10 +82,10 @@ def manifest(path: Path, seen: dict[str, tuple[int, int, int]]) -> Files:
     files: Files = {}
     for name in _names(path):
         state = (path / name).stat()
-        known = seen.get(name)
-        if known is None or known[:2] != (state.st_size, state.st_mtime_ns):
-            known = seen[name] = (state.st_size, state.st_mtime_ns, _sum(path / name))
-        files[name] = (known[0], known[2])
+        recorded = seen.get(name)
+        if recorded is None or recorded[:2] != (state.st_size, state.st_mtime_ns):
+            recorded = seen[name] = (state.st_size, state.st_mtime_ns, _sum(path / name))
+        files[name] = (recorded[0], recorded[2])
     return files
 
 

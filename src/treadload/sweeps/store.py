@@ -87,13 +87,13 @@ class Store:
         self.records = {n: record for n, record in journal.records.items() if record.failure is None or n in faults}
         if mark is not None:
             journal.lost = max(journal.lost, mark.done - len(self.records))
-        said = wrong if mark is not None and mark.journal is not None else ()
+        damage_text = wrong if mark is not None and mark.journal is not None else ()
         self.repaired = "; ".join(
             text
             for text in (
                 self.repaired,
                 journal.damage(self.design.count - len(journal.records), repaired=True),
-                _unmarked(self.path, journal, mark, said, repaired=True),
+                _unmarked(self.path, journal, mark, damage_text, repaired=True),
                 self._mend_fields(mark, wrong),
             )
             if text
@@ -295,8 +295,8 @@ def opened(path: str | os.PathLike[str]) -> tuple[xr.Dataset, Case, str]:
         journal.lost = max(journal.lost, mark.done - done)
     data = gathered(design, sorted(journal.records.values(), key=lambda record: record.number))
     damage = [journal.damage(design.count - len(journal.records)), _unmarked(path, journal, mark, wrong)]
-    said = "; ".join(text for text in damage if text)
-    data = data.assign_attrs(about(case, design, None) | ({"damage": said} if said else {}))
+    damage_text = "; ".join(text for text in damage if text)
+    data = data.assign_attrs(about(case, design, None) | ({"damage": damage_text} if damage_text else {}))
     return _in_order(data, _names(journal, design)), case, str(path)
 
 
