@@ -65,13 +65,13 @@ def first_cracks(design: Design, life: Life, passages: Passages, workers: int | 
         if braked is None:
             continue
         for number, direction in enumerate(DIRECTIONS):
-            whole, _ = braked.harm(partial(_strain_across, _ACROSS[direction]), law)
+            whole, _, largest = braked.harm(partial(_strain_across, _ACROSS[direction]), law)
             spread = wander.spread(whole, braked.spacing)
             margin = (len(spread) - len(whole)) // 2
             most = int(spread.argmax())
             fields["crack_repetitions"][k, number] = 1 / spread[most] if spread[most] > 0 else np.inf
             fields["crack_place"][k, number] = braked.y[0] + braked.spacing * (most - margin)
-            fields["crack_strain"][k, number] = braked.largest(partial(_strain_across, _ACROSS[direction]))
+            fields["crack_strain"][k, number] = largest
         shares[k] = _causes(solve, design.traffic.classes[row], braked, law, wander, worst)
     return {name: (("criterion", "direction"), values) for name, values in fields.items()} | {
         "cause_share": (("criterion", "cause"), shares)
@@ -107,19 +107,16 @@ class _Solved:
         over = self.criterion.mean_over
         return Followed.of(evaluated, self.fields, self.task.wheels, self.lines, self.basin, over, power)
 
-    def largest(self, evaluated: Evaluated) -> float:
-        followed = self.followed(evaluated)
-        return float(max(followed.core.max(), followed.away.max(initial=0.0)))
-
-    def harm(self, evaluated: Evaluated, law: FatigueLaw) -> tuple[Array, Array]:
-        """Damage of the passage on y, (ny,), and of it what cycles do whose peak lies far from the footprints."""
+    def harm(self, evaluated: Evaluated, law: FatigueLaw) -> tuple[Array, Array, float]:
+        """Damage of the passage on y, (ny,); of it what cycles with a peak far from the footprints do; the largest."""
         followed = self.followed(evaluated)
         order = np.argsort(followed.x, kind="stable")
         core = _cycles(followed.core[:, order], followed.far[order], law)
         away = _cycles(followed.away, np.ones(followed.away.shape[1], dtype=bool), law)
         whole, far = (np.concatenate(pair)[self.lines.ordered] for pair in zip(core, away, strict=True))
         lines = self.lines.evaluated
-        return np.asarray(np.interp(self.y, lines, whole)), np.asarray(np.interp(self.y, lines, far))
+        largest = float(max(followed.core.max(), followed.away.max(initial=0.0)))
+        return np.asarray(np.interp(self.y, lines, whole)), np.asarray(np.interp(self.y, lines, far)), largest
 
 
 def _cycles(read: Array, far: BoolArray, law: FatigueLaw) -> tuple[Array, Array]:
@@ -206,6 +203,6 @@ def _at_place(solved: _Solved, law: FatigueLaw, wander: Wander, place: float) ->
     """Damage of a passage after wander at a place, m, and of it what is evaluated far from the footprints."""
     reach = (len(wander.weights(solved.spacing)) - 1) // 2
     column = round((place - float(solved.y[0])) / solved.spacing) + reach
-    whole, far = solved.harm(solved.criterion.read_uncut, law)
+    whole, far, _ = solved.harm(solved.criterion.read_uncut, law)
     spread = partial(wander.spread_at, spacing=solved.spacing, column=column)
     return float(spread(whole)), float(spread(far))
