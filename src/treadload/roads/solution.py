@@ -173,7 +173,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
                 notes.append(f"{deviation_in_words(float(np.nanmedian(deviations)))} (one standard deviation)")
             if len(drops) > 1:
                 notes.append(f"half of {len(drops)} from {modulus_in_words(low)} to {modulus_in_words(high)}")
-            label = f"{name} at {load / 1e3:.3g} kN"
+            label = f"modulus of {name} at {load / 1e3:.3g} kN"
             rows.append(row("fitted_modulus", middle, label=label, note=", ".join(notes)))
         return rows
 
