@@ -108,7 +108,7 @@ class _Solved:
         return Followed.of(evaluated, self.fields, self.task.wheels, self.lines, self.basin, over, power)
 
     def harm(self, evaluated: Evaluated, law: FatigueLaw) -> tuple[Array, Array, float]:
-        """Damage of the passage on y, (ny,); of it what cycles with a peak far from the footprints do; the largest."""
+        """On y (ny,): damage of the passage and its share with a peak far from the footprints; the largest cycle."""
         followed = self.followed(evaluated)
         order = np.argsort(followed.x, kind="stable")
         core = _cycles(followed.core[:, order], followed.far[order], law)
