@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
+import scipy
 
 from treadload.damage.growth.intensity import BREAK
 from treadload.kernels.arrays import Array, IntArray
@@ -151,5 +151,5 @@ def _spread(lattice: Array, spans: Sequence[tuple[float, float]], cell: float) -
 
 def between_rows(rows: Array, y: Array, ranges: Array) -> Array:
     """Ranges (n, rows, 4, cycles) at y (n, y, 4, cycles), monotone cubics between rows, level beyond them."""
-    ranges_here: Array = PchipInterpolator(rows, ranges, axis=1)(np.clip(y, rows[0], rows[-1]))
+    ranges_here: Array = scipy.interpolate.PchipInterpolator(rows, ranges, axis=1)(np.clip(y, rows[0], rows[-1]))
     return ranges_here

@@ -12,10 +12,10 @@ from treadload.pavement import Pavement
 from treadload.read import As, Table
 from treadload.roads import BasinLayout
 from treadload.roads.unknowns import STIFF_LAYER
-from treadload.units import Celsius
+from treadload.units import Celsius, Number
 
-# Numbers in SI, or texts with units, which the verb reads.
-_Number = float | str
+# Numbers in SI of whatever kind their key asks for, or texts with units, which the verb reads.
+_Number = Number | str
 LAYOUT = As(BasinLayout)
 HALF_SPACE = "none"
 """What `stiff_layer` says of a structure that ends in a half-space: TOML has no None."""
