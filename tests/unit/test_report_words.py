@@ -108,7 +108,8 @@ def _bare_floats(hint: Any, covered: bool = False) -> int:
 def test_every_number_of_every_table_has_a_unit_that_can_be_shown():
     assert treadload.case.Case in _all_parts()
     assert len(_all_parts()) > 35
-    for part in _all_parts():
+    # Tests of this process define tables of other packages.
+    for part in [part for part in _all_parts() if part.__module__.partition(".")[0] == "treadload"]:
         for key, hint in get_type_hints(part, include_extras=True).items():
             if key in part.model_fields:
                 assert _bare_floats(hint) == 0, f"{part.__name__}.{key} has a number without a Unit"
