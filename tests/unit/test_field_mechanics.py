@@ -127,6 +127,20 @@ def test_what_is_interrupted_is_kept(tmp_path, monkeypatch):
     assert solved_names == ["6"]
 
 
+def test_a_table_states_priors_with_units():
+    stated = {"subgrade_modulus": "50 MPa", "granular": {"15 cm": "25 cm", "0 mm": 0.4}, "thermal": False}
+    priors = Priors.of(stated, "ours.toml")
+    assert priors == replace(Priors(), subgrade_modulus=50e6, granular={0.0: 0.4, 0.15: 0.25}, thermal=False)
+    assert priors.of_class(priors.granular, 0.2) == 0.25
+    assert Priors.of({}, "ours.toml") == Priors()
+    with pytest.raises(InputError, match=r"ours\.toml: subgrade_modulus: cannot read '50 m' as a quantity in Pa"):
+        Priors.of({"subgrade_modulus": "50 m"}, "ours.toml")
+    with pytest.raises(InputError, match="unknown key 'subgrade'"):
+        Priors.of({"subgrade": 5e7}, "ours.toml")
+    with pytest.raises(InputError, match=r"granular begins at 0\.1 m of asphalt; thinner sections need a value, too"):
+        Priors(granular={0.1: 0.3})
+
+
 def test_priors_are_stated():
     priors = Priors()
     reasons = priors.reasons

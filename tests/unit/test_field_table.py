@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from treadload.errors import InputError
-from treadload.life.field import EVENTS, Predictions, field_tables, read_field_table
+from treadload.life.field import EVENTS, Predictions, field_tables, mechanics, read_field_table
+from treadload.life.field.priors import Priors
 
 HEADS = (
     "state,shrp,family,asphalt_thickness_mm,kesal_per_year,mean_air_temperature_C,age_first_survey,age_last_survey,"
@@ -149,3 +150,21 @@ def test_predictions_follow_the_sections_of_a_table(tmp_path):
         Predictions(("1-a", "1-b"), np.array([1.0, 0]), np.ones(2))
     with pytest.raises(InputError, match="2 sections, got shape"):
         Predictions(("1-a", "1-b"), np.ones(3), np.ones(2))
+
+
+def test_priors_of_a_table_are_kept_for_the_mechanics(tmp_path, monkeypatch):
+    table = table_of(tmp_path, text='[priors]\nsubgrade_modulus = "50 MPa"')
+    assert table.priors == {"subgrade_modulus": "50 MPa"}
+    assert table.at(np.array([0])).priors == table.priors
+    assumed = []
+
+    def damages(sections, priors, **options):
+        assumed.append(priors)
+        raise InputError("stopped")
+
+    monkeypatch.setattr(mechanics, "sections_of", lambda table: ())
+    monkeypatch.setattr(mechanics, "predict_damage", damages)
+    for priors in (None, Priors(age=8.0)):
+        with pytest.raises(InputError, match="stopped"):
+            mechanics.predict_sections(table, priors)
+    assert assumed == [Priors(subgrade_modulus=50e6), Priors(age=8.0)]

@@ -162,12 +162,13 @@ def predict_sections(
 ) -> Predictions:
     """Ages that the mechanics predict for the sections of a table, by the line of a young mix, trusted as they stand.
 
-    The others as in `predict_damage`. parts: largest tensile strains at surface and bottom, the share of daily
+    priors: what the table does not tell; left out, those of the table, else the defaults. The others as in
+    `predict_damage`. parts: largest tensile strains at surface and bottom, the share of daily
     thermal stress, 1 where the traffic is a prior, and the error of values interpolated over the climate. variants:
     ages by lines up to that of old cores, and by multiples of the thermal damage.
     Raises InputError for sections without thickness or climate.
     """
-    assumed = priors or Priors()
+    assumed = priors or Priors.of(table.priors, f"[priors] of {table.name}")
     damages = predict_damage(sections_of(table), assumed, kept=kept, workers=workers, progress=progress)
     traffic, thermal = (np.array([getattr(row, name)[0] for row in damages]) for name in ("traffic", "thermal"))
     missing = [row.assumed_traffic for row in damages]

@@ -24,6 +24,7 @@ from treadload.pavement import Layer, Pavement, divided
 from treadload.pavement.heating import Heat, road_temperatures
 from treadload.pavement.weather import Weather
 from treadload.tire import Belt, Tire
+from treadload.units import Force, Kelvin, Length, Modulus, Number, Pressure, Years, quantity
 
 FAMILIES = ("ACUB", "ACATB", "ACTB")
 """Untreated base, asphalt-treated base, base treated otherwise: the families of LTPP's GPS experiments."""
@@ -81,25 +82,47 @@ class Priors:
 
     mix: str = "EB-BBSG3"
     base_mix: str = "EB-GB3"
-    treated_thickness: float = 0.12
-    granular: Mapping[float, float] = field(default_factory=lambda: {0.0: 0.30, 0.10: 0.25, 0.18: 0.20})
-    granular_modulus: float = 200e6
-    bound_thickness: float = 0.15
-    bound_modulus: float = 2000e6
-    subgrade_modulus: float = 70e6
+    treated_thickness: Length = 0.12
+    granular: dict[Length, Length] = field(default_factory=lambda: {0.0: 0.30, 0.10: 0.25, 0.18: 0.20})
+    granular_modulus: Modulus = 200e6
+    bound_thickness: Length = 0.15
+    bound_modulus: Modulus = 2000e6
+    subgrade_modulus: Modulus = 70e6
     tire: str = "315/80R22.5"
-    steering_load: float = 53e3
-    tandem_load: float = 133e3
-    steering_pressure: float = 120 * _PSI
-    tandem_pressure: float = 110 * _PSI
-    axles_per_truck: float = 1.5
-    missing_traffic: Mapping[float, float] = field(default_factory=lambda: {0.0: 83e3, 0.10: 96e3, 0.18: 171e3})
-    deviation: float = 0.25
-    age: float = 5.0
+    steering_load: Force = 53e3
+    tandem_load: Force = 133e3
+    steering_pressure: Pressure = 120 * _PSI
+    tandem_pressure: Pressure = 110 * _PSI
+    axles_per_truck: Number = 1.5
+    missing_traffic: dict[Length, Number] = field(default_factory=lambda: {0.0: 83e3, 0.10: 96e3, 0.18: 171e3})
+    deviation: Length = 0.25
+    age: Years = 5.0
     parts_of_day: int = 4
-    daily_range: float = 12.0
+    daily_range: Kelvin = 12.0
     thermal: bool = True
-    spacing: float = 6e-3
+    spacing: Length = 6e-3
+
+    def __post_init__(self) -> None:
+        for name in ("granular", "missing_traffic"):
+            classes = {
+                quantity(least, "m") if isinstance(least, str) else float(least): value
+                for least, value in getattr(self, name).items()
+            }
+            if min(classes, default=1.0) != 0:
+                raise InputError(
+                    f"{name} begins at {min(classes, default=math.nan):g} m of asphalt; thinner sections need a "
+                    'value, too: give one for "0 mm"'
+                )
+            object.__setattr__(self, name, dict(sorted(classes.items())))
+
+    @classmethod
+    def of(cls, table: Mapping[str, object], where: str) -> Priors:
+        """Priors of a table of a file, what it leaves out by default. where: of the table, for errors."""
+        # pydantic is loaded when a file is read, not before.
+        from treadload.read import read
+
+        priors: Priors = read(cls, table, where)
+        return priors
 
     @property
     def reasons(self) -> dict[str, str]:

@@ -43,7 +43,7 @@ class SectionTable:
     standard axles a year (n,); mean_air: of the year (n,), °C; NaN where it is missing. family: of the base (n,), ""
     where it is missing. surveys: ages of all surveys of each section, years. title, source, doubts: of the table.
     warnings: sentences about what is missing. predictions: file of ages
-    that mechanics predicted for them.
+    that mechanics predicted for them. priors: keys of `Priors` where the table states them.
     """
 
     name: str
@@ -61,6 +61,7 @@ class SectionTable:
     doubts: tuple[str, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = field(default=(), repr=False)
     predictions: Path | None = field(default=None, repr=False)
+    priors: Mapping[str, object] = field(default_factory=dict, repr=False)
 
     def __len__(self) -> int:
         return len(self.sections)
@@ -90,6 +91,7 @@ class SectionTable:
             self.doubts,
             self.warnings,
             self.predictions,
+            self.priors,
         )
 
     def check_fit(self) -> None:

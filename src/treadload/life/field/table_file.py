@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Literal
 
@@ -55,7 +55,7 @@ class TableFile:
     names of columns where they differ from `COLUMNS`. units: of columns where they differ: thickness "mm", "cm", "m"
     or "in"; traffic "1000/year" or "1/year"; mean_air "degC" or "degF". empty_crack: what an empty cell of a crack
     means, "none seen" or "not recorded". title, source, doubts: of the table. predictions: file of ages that
-    mechanics predicted, see `write_predictions`. priors: what the table does not tell, see `Priors`.
+    mechanics predicted, see `write_predictions`. The table [priors] says what the sections do not tell, see `Priors`.
     """
 
     name: str
@@ -90,13 +90,15 @@ def _read_file(path: Path) -> list[SectionTable]:
     from treadload.read import read
 
     tables = read_tables(path)
-    tables.pop("priors", None)
+    priors = tables.pop("priors", {})
+    if not isinstance(priors, dict):
+        raise InputError(f"{path}: priors must be a table, [priors], got {priors!r}")
     described: TableFile = read(TableFile, tables, str(path), folder=path.parent)
     for kind, keys in (("columns", COLUMNS), ("units", UNITS)):
         wrong = next((key for key in getattr(described, kind) if key not in keys), None)
         if wrong is not None:
             raise InputError(f"{path}: no {kind} of {wrong!r}; {nearest(wrong, keys)}")
-    return [_table(described)]
+    return [replace(_table(described), priors=priors)]
 
 
 def _table(file: TableFile) -> SectionTable:
