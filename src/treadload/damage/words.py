@@ -145,7 +145,7 @@ def cause_in_words(data: xr.Dataset, name: str) -> str:
         )
     (first, when), (second, later) = most.items()
     causes = ", ".join(
-        f"{100 * float(value):.0f} % {cause}"
+        f"{100 * float(value):z.0f} % {cause}"
         for cause, value in zip(at["cause"].to_numpy(), at["cause_share"].to_numpy(), strict=True)
     )
     return (
