@@ -26,8 +26,8 @@ from fuzz.runner import attack_of, run
 def test_nothing_breaks(kind, count):
     tally = run(kind, attack_of(kind), seed=1, indices=range(count))
     assert not tally.failures, str(tally)
-    # An attack that only ever is refused, or only ever taken, tests little.
-    assert {"refused", "taken"} <= set(tally.words)
+    # An attack that only ever is refused, or only ever taken, tests little; of a damaged store nearly all is made again.
+    assert ({"taken"} if kind == "stores" else {"refused", "taken"}) <= set(tally.words)
 
 
 @pytest.mark.parametrize("count", [pytest.param(4, id="few"), pytest.param(60, id="some", marks=pytest.mark.slow)])
