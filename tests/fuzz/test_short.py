@@ -26,7 +26,7 @@ from fuzz.runner import attack_of, run
 def test_nothing_breaks(kind, count):
     tally = run(kind, attack_of(kind), seed=1, indices=range(count))
     assert not tally.failures, str(tally)
-    # An attack that only ever is refused, or only ever taken, tests little; of a damaged store nearly all is made again.
+    # An attack that only ever is refused, or only ever taken, tests little; most damaged stores are made again.
     assert ({"taken"} if kind == "stores" else {"refused", "taken"}) <= set(tally.words)
 
 
