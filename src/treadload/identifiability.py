@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+import scipy
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -58,6 +59,17 @@ def spread(slopes: Array, free: NDArray[np.bool_], scatter: float) -> Spread:
             correlation = covariance / np.outer(sigma, sigma)
     deviations = np.where(np.isfinite(deviations), deviations, math.nan)
     return Spread(values, directions, deviations, correlation)
+
+
+def quantile(level: float, freedom: float, *, stated: bool) -> float:
+    """Standard deviations on either side of a number that hold it with a probability.
+
+    Normal where the errors of the readings are stated, else Student's with the degrees of freedom left; NaN for none.
+    """
+    tail = 0.5 * (1 + level)
+    if stated:
+        return float(scipy.special.ndtri(tail))
+    return float(scipy.special.stdtrit(freedom, tail)) if freedom > 0 else math.nan
 
 
 def undecided_in_words(names: Sequence[str], values: Array, directions: Array, scatter: float) -> list[str]:

@@ -17,7 +17,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.errors import InputError, nearest
 from treadload.footprint import FootprintComparison, compare
 from treadload.footprint.measured import READINGS, Measured, Unknown
-from treadload.identifiability import UNDECIDED, spread, undecided_in_words
+from treadload.identifiability import UNDECIDED, quantile, spread, undecided_in_words
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.pavement import Pavement
 from treadload.response import GridLoad
@@ -113,15 +113,7 @@ class Calibration(BaseResult, group="calibration"):
             raise InputError(f"level must lie in (0, 1), got {level:g}; 0.95 is the default")
         free = float(self.dataset.attrs["degrees_of_freedom"])
         errors_stated = bool(self.dataset.attrs["errors_given"])
-        tail = 0.5 * (1 + level)
-        reach = float(
-            scipy.special.ndtri(tail)
-            if errors_stated
-            else scipy.special.stdtrit(free, tail)
-            if free > 0
-            else math.nan
-        )
-        half = reach * self.standard_deviation(name)
+        half = quantile(level, free, stated=errors_stated) * self.standard_deviation(name)
         return self.value(name) - half, self.value(name) + half
 
     @property

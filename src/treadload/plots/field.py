@@ -11,13 +11,12 @@ from matplotlib.figure import Figure
 
 from treadload.composing import Source
 from treadload.figure_registry import figure
+from treadload.life.field.fit import DROP
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, PAPER, headline, legend_below, open_axes, plain, styled
 
 _MODEL, _PLAIN, _SEEN = CASES[0], CASES[1], INK
-# Half of the 95 % quantile of χ² with one degree of freedom.
-_DROP = 1.92
 _OLDEST = 30.0
 
 
@@ -25,6 +24,11 @@ def _middles(cells: np.ndarray) -> np.ndarray:
     """Middle ages of the classes "3 to 6 years"; NaN of others."""
     parts = [str(name).split() for name in cells]
     return np.array([0.5 * (float(p[0]) + float(p[2])) if len(p) == 4 and p[1] == "to" else np.nan for p in parts])
+
+
+def _share_error(share: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """Standard error of a share of so many sections, binomial; the variance of a section is 0.05 at least."""
+    return np.asarray(np.sqrt(np.clip(share * (1 - share), 0.05, None) / np.maximum(count, 1)))
 
 
 @figure(
@@ -88,7 +92,7 @@ def field_survivors(bench: Source, *, ax: Axes | None = None) -> Figure:
     figure, ax = figure_and_axes(ax, 7.6, 4.2)
     age, seen, count = (data[name].to_numpy() for name in ("entry_age", "entry_seen", "entry_sections"))
     handles: list[Any] = [
-        ax.errorbar(age, 100 * seen, 100 * np.sqrt(np.clip(seen * (1 - seen), 0.05, None) / count), fmt="o", ms=5,
+        ax.errorbar(age, 100 * seen, 100 * _share_error(seen, count), fmt="o", ms=5,
                     color=_SEEN, mec=PAPER, elinewidth=0.9, capsize=2, label="seen"),
         *ax.plot(age, 100 * data["entry_predicted"], "s-", ms=5, mfc="none", color=_MODEL, label="fit with overlays"),
         *ax.plot(age, 100 * data["entry_plain"], "^--", ms=5, mfc="none", color=_PLAIN, label="plain fit"),
@@ -137,7 +141,7 @@ def field_power(bench: Source, *, ax: Axes | None = None) -> Figure:
     ax.plot([1.0], [trusted], "o", color=_PLAIN, ms=6)
     ax.annotate(f"{trusted:.0f} nats", (1.0, trusted), xytext=(6, 6), textcoords="offset points", ha="left",
                 va="bottom", fontsize=8.5, color=_PLAIN)  # fmt: skip
-    ax.axhline(-_DROP, color=MUTED, lw=0.6)
+    ax.axhline(-DROP, color=MUTED, lw=0.6)
     open_axes(ax)
     ax.set_ylim(1.15 * float(drop.min()), -0.06 * float(drop.min()))
     ax.set_xlim(float(power.min()), float(power.max()))
@@ -198,7 +202,7 @@ def field_look_shares(look: Source, *, ax: Axes | None = None) -> Figure:
     handles: list[Any] = []
     for number, event in enumerate(map(str, data["event"].to_numpy())):
         share = data["seen_share"].to_numpy()[number]
-        error = np.sqrt(np.clip(share * (1 - share), 0.05, None) / np.maximum(counts[number], 1))
+        error = _share_error(share, counts[number])
         shift = 0.2 * (number - 0.5)
         drawn = ax.errorbar(middles + shift, 100 * share, 100 * error, fmt="o", ms=5, color=CASES[number], mec=PAPER,
                             elinewidth=0.9, capsize=2, label=plain(event))  # fmt: skip

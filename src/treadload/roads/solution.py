@@ -9,13 +9,13 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
-import scipy
 import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError, nearest
+from treadload.identifiability import quantile
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.pavement import Pavement
@@ -98,7 +98,10 @@ class Backcalculation(BaseResult, group="backcalculation"):
         if layer not in names:
             raise InputError(f"there is no layer {layer!r}; {nearest(layer, names)}")
         data = self.dataset.isel(basin=self.drop(drop), layer_name=names.index(layer))
-        reach = quantile(level, float(data["basin_freedom"]), stated=self._stated(float(data["error_scatter"])))
+        freedom = float(data["basin_freedom"])
+        # Without a reading to spare the errors are those that weigh the sensors.
+        stated = self._stated(float(data["error_scatter"])) or not freedom > 0
+        reach = quantile(level, freedom, stated=stated)
         part = math.exp(reach * float(data["modulus_deviation"]))
         return float(data["fitted_modulus"]) / part, float(data["fitted_modulus"]) * part
 
@@ -189,14 +192,6 @@ def deviation_in_words(deviation: float) -> str:
     )
 
 
-def quantile(level: float, freedom: float, *, stated: bool) -> float:
-    """Standard deviations on either side of a number that hold it with a probability."""
-    tail = 0.5 * (1 + level)
-    if stated or not freedom > 0:
-        return float(scipy.special.ndtri(tail))
-    return float(scipy.special.stdtrit(freedom, tail))
-
-
 def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:
     """Drops by their height: median load, N, and numbers of the drops, of those that are good."""
     drops = np.flatnonzero(good)
@@ -229,7 +224,7 @@ def solution(
     thickness = _thickness(basins, unknowns, names, fits)
     moduli[~(thickness > 0)] = math.nan
     stated = error.stated | (fits.scatter == 1.0)
-    reach = np.array([quantile(LEVEL, f, stated=bool(s)) for f, s in zip(fits.freedom, stated, strict=True)])
+    reach = np.array([quantile(LEVEL, f, stated=s or not f > 0) for f, s in zip(fits.freedom, stated, strict=True)])
     with np.errstate(over="ignore"):
         part = np.exp(reach[:, None] * deviation)
     depth = thickness.sum(axis=1)
