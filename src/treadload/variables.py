@@ -372,8 +372,20 @@ _CALIBRATION = {
 }
 
 _BASINS = {
-    "sensor": ("m", "distance of a deflection sensor from the axis of the loading plate"),
-    "plate_load": ("N", "peak load of a drop on the loading plate"),
+    "sensor": (
+        "m",
+        "distance of a sensor from the axis of the loading plate, or ahead of the middle of rolling wheels",
+    ),
+    "plate_load": ("N", "peak load of a drop on the loading plate, or load on rolling wheels"),
+    "basin_speed": ("m/s", "speed of the wheels at a moving basin"),
+    "measured_slope": (
+        "1",
+        "slope of the surface that a sensor measured, positive where it goes down towards the wheels",
+    ),
+    "fitted_slope": (
+        "1",
+        "slope of the surface of the fitted layers, positive where it goes down towards the wheels",
+    ),
     "measured_deflection": ("m", "peak deflection that a sensor measured, down"),
     "fitted_deflection": ("m", "deflection of the fitted layers, down"),
     "fitted_modulus": ("Pa", "Young's modulus of a layer that fits the deflections, or that was fixed"),
@@ -389,7 +401,7 @@ _BASINS = {
     "bond_stiffness": ("Pa/m", "stiffness of the bond of a layer to the one below, infinite where bonded"),
     "unknown_at_bound": ("1", "-1 at the lower bound, 1 at the upper one, else 0"),
     "unknown_correlation": ("1", "correlation of the logarithms of two unknowns"),
-    "basin_misfit": ("1", "root mean square of fitted less measured deflections, over the measured ones"),
+    "basin_misfit": ("1", "root mean square of fitted less measured readings, over the measured ones"),
     "error_scatter": ("1", "size of the sensors' errors over what was taken"),
     "basin_freedom": ("1", "readings of a basin less the unknowns that they decide"),
     "basin_status": ("1", "0 fitted, 1 flagged, 2 refused"),

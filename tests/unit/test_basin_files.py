@@ -111,7 +111,7 @@ def test_units_come_from_the_layout_where_the_heading_has_none(tmp_path):
         (PLAIN, {"units": {"D0": "mm"}}, "names a unit of its own"),
         (PLAIN, {"units": {"D1": "mm"}}, "units names 'D1'"),
         (PLAIN, {"deflections": ("D0", "D300"), "offsets": (0.0,)}, "1 offsets for 2 columns"),
-        (PLAIN.replace("µm", "kN"), None, "no unit of length"),
+        (PLAIN.replace("µm", "kN"), None, "no unit like mm"),
         (
             PLAIN.replace("D0", "first").replace("D300", "second").replace("D900", "third"),
             None,

@@ -14,7 +14,10 @@ from treadload.cli.progress import counts
 def backcalculate(
     basins: Annotated[Path, typer.Argument(help="Basins: CSV, PDDX of AASHTO, or F25 of Dynatest.")],
     structure: Annotated[
-        Path, typer.Argument(help="TOML with [pavement], [backcalculation] and the layout [basins] of a CSV.")
+        Path,
+        typer.Argument(
+            help="TOML with [pavement], [backcalculation] and the layout of a CSV, [basins] or [moving_basins]."
+        ),
     ],
     output: shell.Output = None,
     jobs: Annotated[int, typer.Option(min=1, help="Processes.")] = 1,

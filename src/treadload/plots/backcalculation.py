@@ -16,6 +16,10 @@ from treadload.plots.kit.plan import fields_of
 from treadload.plots.kit.style import CASES, INK, MUTED, RULE, headline, open_axes, plain, styled
 
 _REFUSED = 2
+_AXES = {
+    "deflection": ("distance from the plate's axis (m)", "deflection, down (µm)"),
+    "slope": ("ahead of the wheels (m)", "slope, down towards the wheels (µm/m)"),
+}
 # Basins whose curves one panel can carry.
 _MOST = 8
 
@@ -32,7 +36,10 @@ def fitted_basins(backcalculation: Source, *, stations: tuple[str, ...] = ()) ->
     backcalculation: a Backcalculation or its dataset. stations: to draw, at most eight drops; left out, those spread
     over the range of misfits. Returns the figure. Raises InputError if variables or stations are missing.
     """
-    data = fields_of(backcalculation, "measured_deflection", "fitted_deflection", "basin_status", "basin_misfit")
+    data = fields_of(backcalculation, "basin_status", "basin_misfit")
+    kind = "slope" if "measured_slope" in data else "deflection"
+    data = fields_of(data, f"measured_{kind}", f"fitted_{kind}")
+    axis, value = _AXES[kind]
     good = np.flatnonzero(data["basin_status"].to_numpy() != _REFUSED)
     if not len(good):
         raise InputError("no basin was fitted, so that there is nothing to draw; see the reasons of the drops")
@@ -43,19 +50,22 @@ def fitted_basins(backcalculation: Source, *, stations: tuple[str, ...] = ()) ->
     for number, drop in enumerate(chosen):
         at, color = data.isel(basin=drop), CASES[number % len(CASES)]
         load, misfit = float(at["plate_load"]) / 1e3, 100 * float(at["basin_misfit"])
-        left.plot(offsets, 1e6 * at["fitted_deflection"], color=color, lw=1.3)
+        left.plot(offsets, 1e6 * at[f"fitted_{kind}"], color=color, lw=1.3)
         left.plot(
-            offsets, 1e6 * at["measured_deflection"], "o", ms=4, color=color,
+            offsets, 1e6 * at[f"measured_{kind}"], "o", ms=4, color=color,
             label=f"{plain(str(at['station'].item()))}, {load:.3g} kN: misfit {misfit:.2g} %",
         )  # fmt: skip
-    left.set_ylim(1.05 * left.get_ylim()[1], 0)
+    if kind == "deflection":
+        left.set_ylim(1.05 * left.get_ylim()[1], 0)
+    else:
+        left.axhline(0, color=MUTED, lw=0.8)
     left.set_xlim(left=min(0.0, -0.02 * float(offsets.max())))
-    left.set_xlabel("distance from the plate's axis (m)")
-    left.set_ylabel("deflection, down (µm)")
-    left.legend(loc="lower right", fontsize=7.5)
+    left.set_xlabel(axis)
+    left.set_ylabel(value)
+    left.legend(loc="lower right" if kind == "deflection" else "best", fontsize=7.5)
     open_axes(left)
     headline(left, "Basins", "dots: measured; lines: fitted")
-    apart = 100 * (data["fitted_deflection"] / data["measured_deflection"] - 1).to_numpy()[good]
+    apart = _misfit(data, kind)[good]
     right.axhline(0, color=MUTED, lw=0.8)
     if len(good) > _MOST:
         spreads = [apart[:, k][np.isfinite(apart[:, k])] for k in range(len(offsets))]
@@ -69,8 +79,8 @@ def fitted_basins(backcalculation: Source, *, stations: tuple[str, ...] = ()) ->
     else:
         for number in range(len(good)):
             right.plot(offsets, apart[number], "o-", ms=4, color=CASES[number % len(CASES)])
-    right.set_xlabel("distance from the plate's axis (m)")
-    right.set_ylabel("fitted less measured (%)")
+    right.set_xlabel(axis)
+    right.set_ylabel("fitted less measured (%)" if kind == "deflection" else "fitted less measured (% of the rms)")
     open_axes(right)
     headline(right, "Misfit by sensor", f"{len(good)} drops; a trend points at the structure, not at a sensor")
     return figure
@@ -124,6 +134,13 @@ def moduli_along(backcalculation: Source, *, load: float | None = None) -> Figur
         figure.legend(handles, labels, loc="outside lower right", ncols=len(classes), fontsize=8)
     headline(axes[0], "Moduli along the road", "bars: 90 %; hollow: flagged")
     return figure
+
+
+def _misfit(data: xr.Dataset, kind: str) -> Array:
+    """Fitted less measured, % of each deflection, or of the size of all slopes, which pass through zero."""
+    measured, fitted = data[f"measured_{kind}"].to_numpy(), data[f"fitted_{kind}"].to_numpy()
+    size = measured if kind == "deflection" else np.sqrt(np.nanmean(measured**2, axis=1, keepdims=True))
+    return np.asarray(100 * (fitted - measured) / size)
 
 
 def _chosen(data: xr.Dataset, good: IntArray, stations: tuple[str, ...]) -> list[int]:

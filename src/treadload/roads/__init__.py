@@ -3,7 +3,18 @@
 from treadload.roads.backcalculate import backcalculate
 from treadload.roads.basins import Basins
 from treadload.roads.layout import BasinLayout
+from treadload.roads.moving_basins import DualWheels, MovingBasins
+from treadload.roads.moving_layout import MovingLayout
 from treadload.roads.reading import read_basins
 from treadload.roads.solution import Backcalculation
 
-__all__ = ["Backcalculation", "BasinLayout", "Basins", "backcalculate", "read_basins"]
+__all__ = [
+    "Backcalculation",
+    "BasinLayout",
+    "Basins",
+    "DualWheels",
+    "MovingBasins",
+    "MovingLayout",
+    "backcalculate",
+    "read_basins",
+]

@@ -11,17 +11,18 @@ import numpy as np
 
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, TemperatureDependent
+from treadload.materials import TemperatureDependent
 from treadload.pavement import Pavement
-from treadload.roads.basins import Basins
+from treadload.roads.basins import Basins, Measured
+from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.parts import Progress, solve_in_parts
 from treadload.roads.solution import Backcalculation, solution
 from treadload.roads.uncertainty import SensorError, Stated
-from treadload.roads.unknowns import STIFF_LAYER, Unknowns, layer_names, pose
+from treadload.roads.unknowns import STIFF_LAYER, Unknowns, layer_names, modulus_at, pose
 
 
 def backcalculate(
-    basins: Basins,
+    basins: Basins | MovingBasins,
     structure: Pavement,
     *,
     fixed: Collection[str] = (),
@@ -34,30 +35,35 @@ def backcalculate(
     state: str | os.PathLike[str] | None = None,
     progress: Progress | None = None,
 ) -> Backcalculation:
-    """Moduli of a road's layers from static deflection basins: weighted least squares on the layered solver.
+    """Moduli of a road's layers from deflection basins: weighted least squares on the layered solver.
 
-    basins: drops of a falling weight, see `Basins` and `read_basins`; a thickness that they give for a layer is taken
-    in place of the structure's. structure: layers with their Poisson's ratios, thicknesses and bonds. Its moduli are
-    those of the fixed layers and the centres of priors; no start is needed. A layer of a mix is corrected for
-    temperature. fixed: names of layers whose modulus is known. bounds: by name, (low, high), Pa or texts; 1 MPa to
-    100 GPa if left out. priors: by name, a coefficient of variation about the structure's modulus, or (modulus, it):
-    lognormal. stiff_layer: depth of the top of a rigid layer below the surface, m or text, 10 m if left out; two
-    depths to seek it between them; None for the half-space of the structure. A rigid base of the structure stays.
-    error: of the sensors, one standard deviation: "2 %", "2 µm", or both; left out, 2 % and 0.5 µm weigh the sensors
-    and the misfit of each basin tells the size. reference_temperature: of mixes, °C. jobs: processes. state: folder
-    that keeps what is solved, so that a run goes on where it stopped. progress: called with (done, total, what).
+    basins: drops of a falling weight, `Basins`, or slopes ahead of rolling wheels, `MovingBasins`; `read_basins`
+    reads both; a thickness that they give for a layer is taken in place of the structure's. structure: layers with
+    their Poisson's ratios, thicknesses and bonds. Its moduli are those of the fixed layers and the centres of priors;
+    no start is needed. A layer of a mix is corrected for temperature. Under rolling wheels layers may be
+    viscoelastic: E*(ω) keeps its shape, and |E*| at 10 Hz and the basin's temperature is sought. fixed: names of
+    layers whose modulus is known. bounds: by name, (low, high), Pa or texts; 1 MPa to 100 GPa if left out. priors: by
+    name, a coefficient of variation about the structure's modulus, or (modulus, it): lognormal. stiff_layer: depth of
+    the top of a rigid layer below the surface, m or text, 10 m if left out; two depths to seek it between them; None
+    for the half-space of the structure. A rigid base of the structure stays. error: of the sensors, one standard
+    deviation: "2 %", "2 µm" ("10 µm/m" of slopes), or both; left out, 2 % and 0.5 µm (10 µm/m) weigh the sensors and
+    the misfit of each basin tells the size. reference_temperature: of mixes, °C. jobs: processes. state: folder that
+    keeps what is solved, so that a run goes on where it stopped. progress: called with (done, total, what).
 
-    The road is linear elastic and the load static: inertia, time and stress dependence are not modelled.
-    Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and undecided.
-    Raises InputError for a question without an answer.
-    Source: as `kernels.layers.settlement`; Marquardt (1963) for the search.
+    The road is linear, a falling weight static, wheels in steady motion: inertia and stress dependence are not
+    modelled. Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and
+    undecided. Raises InputError for a question without an answer. Source: as `kernels.layers.settlement` and
+    `kernels.layers.tracks`; Marquardt (1963) for the search.
     """
     began = time.perf_counter()
-    if not isinstance(basins, Basins):
-        raise InputError(f"basins must be Basins, got {type(basins).__name__}; read_basins reads a file")
+    if not isinstance(basins, Basins | MovingBasins):
+        raise InputError(
+            f"basins must be Basins or MovingBasins, got {type(basins).__name__}; read_basins reads a file"
+        )
+    moving = isinstance(basins, MovingBasins)
     if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1:
         raise InputError(f"jobs must be a whole number of processes from 1, got {jobs!r}")
-    unknowns = pose(structure, fixed=fixed, bounds=bounds, priors=priors, stiff_layer=stiff_layer)
+    unknowns = pose(structure, fixed=fixed, bounds=bounds, priors=priors, stiff_layer=stiff_layer, memory=moving)
     names = layer_names(unknowns.road)
     stray = next((name for name in basins.thickness if name not in names[:-1]), None)
     if stray is not None:
@@ -66,14 +72,14 @@ def backcalculate(
             "above its last layer; name its layers so"
         )
     _check_count(basins, unknowns)
-    sensors = SensorError.of(error)
+    sensors = SensorError.of(error, slopes=moving)
     fits, before = solve_in_parts(basins, unknowns, sensors, jobs=jobs, state=state, progress=progress)
     factors = temperature_factors(structure, basins, reference_temperature)
     stats = {"basins": len(basins), "from_state": before, "seconds": time.perf_counter() - began}
     return solution(basins, unknowns, sensors, fits, factors, reference_temperature, stats)
 
 
-def temperature_factors(structure: Pavement, basins: Basins, reference: float) -> Array:
+def temperature_factors(structure: Pavement, basins: Measured, reference: float) -> Array:
     """Modulus at a reference temperature, °C, over that at each drop's (n, L); 1 of layers without temperature.
 
     NaN where the temperature is not known or outside the data of the mix.
@@ -97,14 +103,12 @@ def temperature_factors(structure: Pavement, basins: Basins, reference: float) -
 
 
 def _modulus(mix: TemperatureDependent, temperature: float) -> float:
-    elastic = mix.at(temperature)
-    assert isinstance(elastic, Elastic)  # `pose` has seen to it
-    return elastic.modulus
+    return modulus_at(mix.at(temperature))
 
 
-def _check_count(basins: Basins, unknowns: Unknowns) -> None:
+def _check_count(basins: Measured, unknowns: Unknowns) -> None:
     """Refuse more unknowns than any basin has sensors."""
-    most = int(basins.sensors.sum(axis=1).max(initial=0))
+    most = int(np.isfinite(basins.readings).sum(axis=1).max(initial=0))
     bare = [name for name, prior in zip(unknowns.names, unknowns.priors, strict=False) if prior is None]
     bare += [unknowns.names[-1]] * unknowns.seeks_depth
     if len(bare) > most > 0 and not basins.thickness:

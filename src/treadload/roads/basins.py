@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Literal, get_args
+from typing import Literal, Protocol, get_args
 
 import numpy as np
 
@@ -22,6 +22,49 @@ _OTHER_UNIT, _OTHER_DROP = 20.0, 20.0
 _SOFTEST, _STIFFEST = 2e-6, 2e-12
 # Deflections may rise outwards by this part, or this much, m, before the basin is flagged: resolution of the sensors.
 _RISE, _RESOLUTION = 0.01, 1e-6
+
+
+class Measured(Protocol):
+    """Whatever was measured of a road, a row for every drop or place; see `Basins`."""
+
+    @property
+    def thickness(self) -> Mapping[str, Array]:
+        """Name of a layer → its thickness at each drop (n,), m."""
+
+    @property
+    def temperature(self) -> Array | None:
+        """Of the asphalt (n,), °C."""
+
+    @property
+    def offsets(self) -> Array:
+        """Of the sensors (s,), m."""
+
+    @property
+    def readings(self) -> Array:
+        """What is fitted (n, r)."""
+
+    @property
+    def usual(self) -> float:
+        """What most rows show for each newton; NaN without any."""
+
+    @property
+    def numbers(self) -> tuple[Array, ...]:
+        """Arrays that the answer depends on."""
+
+    @property
+    def conditions(self) -> tuple[object, ...]:
+        """What else it depends on, each with a repr that says all of it."""
+
+    def __len__(self) -> int: ...
+
+    def rows(self, chosen: Sequence[int] | IntArray | BoolArray) -> Measured:
+        """Some of the rows."""
+
+    def refusals(self, usual: float) -> list[str]:
+        """For every row why it cannot be fitted."""
+
+    def flags(self) -> list[str]:
+        """For every row what is unusual."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,23 +116,17 @@ class Basins:
                 f"a sensor at {inside[0] * 1e3:g} mm lies inside the plate of radius {self.plate_radius * 1e3:g} mm; "
                 "only its centre is open: check the offsets, their unit and the radius"
             )
-        station = tuple(map(str, self.station)) or tuple(str(number + 1) for number in range(count))
-        for name, labels in (("station", station), ("section", self.section)):
-            if labels and len(labels) != count:
-                raise InputError(f"{name} needs a label for each of {count} drops, got {len(labels)}")
+        station = checked_labels("station", self.station, count) or tuple(str(number + 1) for number in range(count))
+        section = checked_labels("section", self.section, count)
         columns: dict[str, Array | None] = {"position": self.position, "temperature": self.temperature}
         for name, values in columns.items():
-            columns[name] = None if values is None else _column(name, values, count)
-        thickness = {name: _column(f"thickness of {name}", v, count) for name, v in self.thickness.items()}
-        for name, values in thickness.items():
-            if not (values >= 0).all():
-                raise InputError(
-                    f"thickness of {name} must be 0 m or more at every drop, 0 where it is absent, got "
-                    f"{values[~(values >= 0)][0]:g} at drop {int(np.argmax(~(values >= 0))) + 1}"
-                )
+            columns[name] = None if values is None else checked_column(name, values, count)
+        thickness = {
+            name: checked_column(f"thickness of {name}", v, count, least=0.0) for name, v in self.thickness.items()
+        }
         settled = {
             "deflection": deflection, "offsets": offsets, "load": load, "station": station,
-            "section": tuple(map(str, self.section)), "thickness": dict(thickness), **columns,
+            "section": section, "thickness": thickness, **columns,
         }  # fmt: skip
         for name, value in settled.items():
             object.__setattr__(self, name, value)
@@ -110,6 +147,21 @@ class Basins:
             temperature=None if self.temperature is None else self.temperature[at],
             thickness={name: values[at] for name, values in self.thickness.items()},
         )
+
+    @property
+    def readings(self) -> Array:
+        """What is fitted (n, s)."""
+        return self.deflection
+
+    @property
+    def numbers(self) -> tuple[Array, ...]:
+        """Arrays that the answer depends on."""
+        return self.deflection, self.offsets, self.load
+
+    @property
+    def conditions(self) -> tuple[object, ...]:
+        """What else it depends on."""
+        return self.plate_radius, self.plate
 
     @property
     def sensors(self) -> BoolArray:
@@ -206,10 +258,25 @@ class Basins:
         return f"<Basins of {len(self)} drops, {len(self.offsets)} sensors, {self.source or 'no source'}>"
 
 
-def _column(name: str, values: object, count: int) -> Array:
+def checked_labels(name: str, labels: Sequence[str], count: int) -> tuple[str, ...]:
+    """Labels as texts, one for each drop, or (). Raises InputError."""
+    texts = tuple(map(str, labels))
+    if texts and len(texts) != count:
+        raise InputError(f"{name} needs a label for each of {count} drops, got {len(texts)}")
+    return texts
+
+
+def checked_column(name: str, values: object, count: int, *, least: float | None = None) -> Array:
+    """One value, or one for each drop, as (n,); those of a thickness at least 0. Raises InputError."""
     column = np.atleast_1d(real_array(values, name))
     if column.shape == (1,):
         column = np.full(count, column[0])
     if column.shape != (count,):
         raise InputError(f"{name} needs one value, or one for each of {count} drops, got {column.shape}")
+    if least is not None and not (column >= least).all():
+        wrong = ~(column >= least)
+        raise InputError(
+            f"{name} must be {least:g} m or more at every drop, 0 where it is absent, got {column[wrong][0]:g} at "
+            f"drop {int(np.argmax(wrong)) + 1}"
+        )
     return column

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -29,6 +29,7 @@ _SPELT = {
     "micron": "µm",
     "in": "inch",
 }
+_USUAL = {"N": "kN", "m": "mm", "m/s": "km/h", "": "µm/m"}
 _FAHRENHEIT = ("°F", "F", "degF")
 
 
@@ -67,7 +68,7 @@ def read_csv(path: str | os.PathLike[str], layout: BasinLayout | None = None) ->
         raise InputError(
             f"{path} needs a line of headings, such as station, load [kN], D0 [µm], D300 [µm], and drops"
         )
-    columns = _Columns(table, how)
+    columns = TableColumns(table, how.units)
     deflections = [columns.find(name, "deflections") for name in how.deflections] or columns.deflections()
     if not deflections:
         raise InputError(
@@ -99,11 +100,12 @@ def read_csv(path: str | os.PathLike[str], layout: BasinLayout | None = None) ->
     )
 
 
-class _Columns:
+class TableColumns:
     """Columns of a table by their headings, with or without the unit in brackets."""
 
-    def __init__(self, table: Table, layout: BasinLayout) -> None:
-        self._table, self._layout = table, layout
+    def __init__(self, table: Table, units: Mapping[str, str]) -> None:
+        """units: column → unit, of those that name none."""
+        self._table, self._units = table, units
         self.headings = [heading.strip() for heading in table.rows[0]]
         bare = [match["name"] if (match := _HEADING.fullmatch(heading)) else heading for heading in self.headings]
         self._places: dict[str, int] = {}
@@ -113,7 +115,7 @@ class _Columns:
                     raise InputError(f"{table.path}, line {table.lines[0]}: the column {name!r} occurs twice")
                 self._places[name] = place
         self._bare = bare
-        stray = next((name for name in layout.units if name not in self._places), None)
+        stray = next((name for name in units if name not in self._places), None)
         if stray is not None:
             raise InputError(f"{table.path}: units names {stray!r}; {nearest(stray, bare, 'its columns are')}")
 
@@ -129,9 +131,16 @@ class _Columns:
         return self.find(name, usual) if name else self._places.get(usual)
 
     def deflections(self) -> list[int]:
+        """Places of the deflections."""
         return [place for place, name in enumerate(self._bare) if _DEFLECTION.fullmatch(name)]
 
+    def named(self, pattern: re.Pattern[str]) -> list[tuple[int, re.Match[str]]]:
+        """Places of the columns whose names match."""
+        matches = [(place, pattern.fullmatch(name)) for place, name in enumerate(self._bare)]
+        return [(place, match) for place, match in matches if match]
+
     def thickness(self) -> dict[str, int]:
+        """Layer → place of its thickness."""
         layers = {place: _THICKNESS.fullmatch(name) for place, name in enumerate(self._bare)}
         return {match["layer"]: place for place, match in layers.items() if match}
 
@@ -141,6 +150,7 @@ class _Columns:
         return None if match is None else 1e-3 * float(match["offset"])
 
     def texts(self, place: int) -> tuple[str, ...]:
+        """Cells of a column."""
         return tuple(row[place] for row in self._table.rows[1:])
 
     def values(self, place: int, si: str) -> Array:
@@ -155,7 +165,7 @@ class _Columns:
         heading, bare = self.headings[place], self._bare[place]
         match, suffix = _HEADING.fullmatch(heading), _SUFFIX.fullmatch(bare)
         named = match["unit"] if match else suffix["unit"] if suffix else None
-        stated = self._layout.units.get(bare, self._layout.units.get(heading))
+        stated = self._units.get(bare, self._units.get(heading))
         if stated is not None and named is not None and _spelt(stated) != _spelt(named):
             raise InputError(
                 f"{self._table.path}: {heading!r} names a unit of its own, and units has {stated!r}; leave one out"
@@ -164,9 +174,10 @@ class _Columns:
         if unit is None:
             if si == "degC":
                 return "degC"
+            usual = _USUAL[si]
             raise InputError(
-                f"{self._table.path}: {heading!r} names no unit; write {bare} [{'kN' if si == 'N' else 'mm'}], or "
-                f'give units = {{ "{bare}" = "{"kN" if si == "N" else "mm"}" }} in the layout'
+                f"{self._table.path}: {heading!r} names no unit; write {bare} [{usual}], or "
+                f'give units = {{ "{bare}" = "{usual}" }} in the layout'
             )
         return unit
 
@@ -180,13 +191,11 @@ def _factor(unit: str, si: str, where: str) -> float:
         spelt = _spelt(unit)
         return quantity(spelt if spelt[0].isdigit() else f"1 {spelt}", si)
     except (InputError, IndexError) as error:
-        raise InputError(
-            f"{where} is in {unit!r}, which is no unit of {'force' if si == 'N' else 'length'}"
-        ) from error
+        raise InputError(f"{where} is in {unit!r}, which is no unit like {_USUAL[si]}") from error
 
 
 def _offsets(
-    path: str | os.PathLike[str], columns: _Columns, deflections: Sequence[int], stated: Sequence[float]
+    path: str | os.PathLike[str], columns: TableColumns, deflections: Sequence[int], stated: Sequence[float]
 ) -> list[float]:
     if stated:
         if len(stated) != len(deflections):

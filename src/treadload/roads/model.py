@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.layers.settlement import Columns, Plate
 from treadload.pavement import Bond, Pavement
 from treadload.pavement.bonds import BONDED, FRICTIONLESS
-from treadload.roads.basins import Basins
+from treadload.roads.basins import Basins, Measured
 from treadload.roads.unknowns import Unknowns, modulus_of, poisson_of
 
 # Of the slopes: step of ln E and ln depth. Deflections are computed to some 1e-14, so that a difference over 1e-5 has
@@ -48,6 +49,23 @@ class BasinModel:
             self.columns.rows(at), self.load[at], self.log_moduli, self.above[at],
         )  # fmt: skip
 
+    @property
+    def size(self) -> int:
+        """Nodes of a structure."""
+        return len(self.plate.nodes)
+
+    @property
+    def geometry(self) -> Array:
+        """Numbers that drops of the same geometry share (n, ...)."""
+        if not self.columns.slabs:
+            return np.zeros((len(self.drops), 1))
+        return np.stack([slab.t[4][:, 0, self.size // 2] for slab in self.columns.slabs], axis=1)
+
+    @property
+    def coarse(self) -> BasinModel:
+        """What starts are found with."""
+        return self
+
     def deflection(self, x: Array) -> Array:
         """Deflection (n, v, s), m."""
         moduli = np.broadcast_to(self.log_moduli, (*x.shape[:-1], len(self.present))).copy()
@@ -62,16 +80,21 @@ class BasinModel:
 
     def with_slopes(self, x: Array) -> tuple[Array, Array]:
         """Deflection (n, v, s), m, and its slopes over x (n, v, s, p)."""
-        n, v, p = x.shape
-        moved = np.repeat(x[:, :, None, :], p + 1, axis=2)
-        for number in range(p):
-            moved[:, :, number + 1, number] += _STEP
-        values = self.deflection(moved.reshape(n, v * (p + 1), p)).reshape(n, v, p + 1, -1)
-        slopes = (values[:, :, 1:] - values[:, :, :1]) / _STEP
-        return values[:, :, 0], np.moveaxis(slopes, 2, 3)
+        return slopes_over(self.deflection, x)
 
 
-def thicknesses(basins: Basins, unknowns: Unknowns, names: tuple[str, ...]) -> Array:
+def slopes_over(function: Callable[[Array], Array], x: Array) -> tuple[Array, Array]:
+    """Values (n, v, s) of a function at x (n, v, p), and their slopes over x (n, v, s, p)."""
+    n, v, p = x.shape
+    moved = np.repeat(x[:, :, None, :], p + 1, axis=2)
+    for number in range(p):
+        moved[:, :, number + 1, number] += _STEP
+    values = function(moved.reshape(n, v * (p + 1), p)).reshape(n, v, p + 1, -1)
+    slopes = (values[:, :, 1:] - values[:, :, :1]) / _STEP
+    return values[:, :, 0], np.moveaxis(slopes, 2, 3)
+
+
+def thicknesses(basins: Measured, unknowns: Unknowns, names: tuple[str, ...]) -> Array:
     """Thickness of every layer at every drop (n, L), m; of the last one to the stiff layer, inf on a half-space."""
     count = len(basins)
     table = np.full((count, len(names)), math.inf)
@@ -100,7 +123,7 @@ def _model(basins: Basins, unknowns: Unknowns, table: Array, drops: IntArray, pr
     rigid = unknowns.depth is not None
     deep = table[np.ix_(drops, present)]
     poisson = np.array([poisson_of(layer) for layer in layers])
-    spring = [_spring(road, int(present[k]), int(present[k + 1])) for k in range(len(present) - 1)]
+    spring = springs_between(road, present)
     thinnest = float(deep[:, 0].min()) if len(present) > 1 or rigid else math.inf
     finite = deep[:, : len(present) - (0 if rigid else 1)]
     basin = max(float(finite.sum(axis=1).max(initial=0.0)), basins.plate_radius) * _RATIO ** (1 / 3)
@@ -119,6 +142,11 @@ def _model(basins: Basins, unknowns: Unknowns, table: Array, drops: IntArray, pr
         drops, tuple(map(int, present)), sought, tuple(chosen), unknowns.seeks_depth, plate, columns,
         basins.load[drops], log_moduli, above,
     )  # fmt: skip
+
+
+def springs_between(road: Pavement, present: IntArray) -> tuple[float, ...]:
+    """Stiffness of the interfaces between the present layers, Pa/m."""
+    return tuple(_spring(road, int(present[k]), int(present[k + 1])) for k in range(len(present) - 1))
 
 
 def _spring(road: Pavement, upper: int, lower: int) -> float:

@@ -19,7 +19,7 @@ import numpy as np
 
 from treadload.errors import InputError, WorkersLost
 from treadload.files import write_whole
-from treadload.roads.basins import Basins
+from treadload.roads.basins import Measured
 from treadload.roads.solve import Fits, solve
 from treadload.roads.uncertainty import SensorError
 from treadload.roads.unknowns import Unknowns
@@ -32,7 +32,7 @@ _QUESTION = "question.json"
 
 
 def solve_in_parts(
-    basins: Basins,
+    basins: Measured,
     unknowns: Unknowns,
     error: SensorError,
     *,
@@ -66,7 +66,7 @@ def solve_in_parts(
 
 
 def _solved(
-    tasks: dict[int, Basins], unknowns: Unknowns, error: SensorError, usual: float, jobs: int
+    tasks: dict[int, Measured], unknowns: Unknowns, error: SensorError, usual: float, jobs: int
 ) -> Iterator[tuple[int, Fits]]:
     if jobs == 1 or len(tasks) < 2:
         for start, rows in tasks.items():
@@ -140,9 +140,9 @@ class _Kept:
         return fits if len(fits.status) == count else None
 
 
-def _fingerprint(basins: Basins, unknowns: Unknowns, error: SensorError) -> str:
+def _fingerprint(basins: Measured, unknowns: Unknowns, error: SensorError) -> str:
     digest = hashlib.sha256()
-    for values in (basins.deflection, basins.offsets, basins.load, *basins.thickness.values()):
+    for values in (*basins.numbers, *basins.thickness.values()):
         digest.update(np.ascontiguousarray(values).tobytes())
-    digest.update(repr((basins.plate_radius, basins.plate, list(basins.thickness), unknowns, error)).encode())
+    digest.update(repr((*basins.conditions, list(basins.thickness), unknowns, error)).encode())
     return digest.hexdigest()

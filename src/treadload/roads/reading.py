@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import overload
 
 from treadload.errors import InputError
 from treadload.files import text_of
 from treadload.roads.basins import Basins
 from treadload.roads.f25 import FIRST, read_f25
 from treadload.roads.layout import BasinLayout, read_csv
+from treadload.roads.moving_basins import MovingBasins
+from treadload.roads.moving_layout import MovingLayout, read_moving_csv
 from treadload.roads.pddx import TITLE, read_pddx
 
 
-def read_basins(path: str | os.PathLike[str], layout: BasinLayout | None = None) -> Basins:
+@overload
+def read_basins(path: str | os.PathLike[str], layout: BasinLayout | None = None) -> Basins: ...
+@overload
+def read_basins(path: str | os.PathLike[str], layout: MovingLayout) -> MovingBasins: ...
+def read_basins(
+    path: str | os.PathLike[str], layout: BasinLayout | MovingLayout | None = None
+) -> Basins | MovingBasins:
     """Basins of a file: a table of text, the exchange format PDDX of AASHTO, or a file F25 of Dynatest.
 
-    layout: which columns of a table hold what; left out, columns are found by their names: station, position [m],
-    load [kN], D0 [µm], D300 [µm] and so on with the offset in mm, temperature [°C], thickness base [mm].
-    Raises InputError for what cannot be read, and a layout for a format that has its own.
+    Moving basins are read of a table with a `MovingLayout`, which states the wheels. layout: which columns of a table
+    hold what; left out, columns are found by their names: station, position [m], load [kN], D0 [µm], D300 [µm] and so
+    on with the offset in mm, temperature [°C], thickness base [mm]. Raises InputError for what cannot be read, and a
+    layout for a format that has its own.
     """
     file = Path(path)
+    if isinstance(layout, MovingLayout):
+        return read_moving_csv(file, layout)
     start = text_of(file, "a file of deflection basins")
     kind = "pddx" if TITLE.lower() in start[:2000].lower() else "f25" if start.lstrip().startswith(FIRST) else ""
     if not kind:

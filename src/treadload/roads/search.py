@@ -11,11 +11,11 @@ geodesic acceleration after Transtrum and Sethna (2012), arXiv:1201.5885.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray, IntArray
-from treadload.roads.model import BasinModel
 
 # Structures that a search may begin with, and how many begin for each drop.
 _LIBRARY, _STARTS = 256, 5
@@ -33,6 +33,51 @@ _APART = 0.3
 _MOST = 80
 # Structures times wavenumbers of a block keep near the cache.
 _BLOCK = 60_000
+
+
+class Model(Protocol):
+    """What drops of the same sensors show over logarithms of the unknowns x (n, v, p); see `BasinModel`."""
+
+    @property
+    def drops(self) -> IntArray:
+        """Numbers of the drops."""
+
+    @property
+    def present(self) -> tuple[int, ...]:
+        """Numbers of the layers that are there."""
+
+    @property
+    def sought(self) -> tuple[int, ...]:
+        """Places among these of the layers whose modulus is sought."""
+
+    @property
+    def chosen(self) -> tuple[int, ...]:
+        """Numbers of the unknowns in the columns of x."""
+
+    @property
+    def load(self) -> Array:
+        """Of the drops (n,), N."""
+
+    @property
+    def size(self) -> int:
+        """Nodes of a structure."""
+
+    @property
+    def geometry(self) -> Array:
+        """Numbers that drops of the same geometry share (n, ...)."""
+
+    @property
+    def coarse(self) -> Model:
+        """A cheaper one that starts are found with, or itself."""
+
+    def rows(self, at: IntArray) -> Model:
+        """Of some of the drops."""
+
+    def deflection(self, x: Array) -> Array:
+        """Readings (n, v, r)."""
+
+    def with_slopes(self, x: Array) -> tuple[Array, Array]:
+        """Readings, and their slopes over x (n, v, r, p)."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,10 +131,14 @@ class Target:
         return np.concatenate([slopes * weight, prior], axis=-2)
 
 
-def fit(model: BasinModel, target: Target) -> Fitted:
+def fit(model: Model, target: Target) -> Fitted:
     """The best fit of every drop of a model."""
-    count = max(1, _BLOCK // (_STARTS * (len(target.low) + 1) * len(model.plate.nodes)))
-    starts = _starts(model, target)
+    if model.coarse is not model:
+        rough = fit(model.coarse, target)
+        starts = np.stack([rough.x, np.where(np.isfinite(rough.rival), rough.rival, rough.x)], axis=1)
+    else:
+        starts = _starts(model, target)
+    count = max(1, _BLOCK // (starts.shape[1] * (len(target.low) + 1) * model.size))
     parts = []
     for begin in range(0, len(model.drops), count):
         at = np.arange(begin, min(begin + count, len(model.drops)))
@@ -97,7 +146,7 @@ def fit(model: BasinModel, target: Target) -> Fitted:
     return Fitted(*(np.concatenate([getattr(part, name) for part in parts]) for name in Fitted.__dataclass_fields__))
 
 
-def _starts(model: BasinModel, target: Target) -> Array:
+def _starts(model: Model, target: Target) -> Array:
     """The best structures of the library for every drop: (n, starts, p)."""
     p = len(target.low)
     count = len(model.sought)
@@ -112,12 +161,7 @@ def _starts(model: BasinModel, target: Target) -> Array:
     from scipy.stats import qmc
 
     library = low + (high - low) * qmc.Sobol(p, rng=np.random.default_rng(1)).random(_LIBRARY)
-    geometry = (
-        np.stack([slab.t[4][:, 0, len(model.plate.nodes) // 2] for slab in model.columns.slabs], axis=1)
-        if (model.columns.slabs)
-        else np.zeros((len(model.drops), 1))
-    )
-    _, first, kind = np.unique(geometry, axis=0, return_index=True, return_inverse=True)
+    _, first, kind = np.unique(model.geometry, axis=0, return_index=True, return_inverse=True)
     chosen = np.empty((len(model.drops), _STARTS, p))
     scaled = len(model.sought) == len(model.present)
     for number, representative in enumerate(first):
@@ -126,7 +170,8 @@ def _starts(model: BasinModel, target: Target) -> Array:
         # Structures of extreme contrast leave nothing of a far deflection but round-off.
         values = np.log(np.maximum(single.deflection(library[None])[0] / single.load[0], 1e-300))
         for part in np.array_split(drops, max(1, len(drops) // 64)):
-            measured = np.log(target.deflection[part] / model.load[part, None])
+            with np.errstate(invalid="ignore"):
+                measured = np.log(target.deflection[part] / model.load[part, None])
             chosen[part] = _best(library, values, measured, target, count if scaled else 0)
     return chosen
 
@@ -145,7 +190,7 @@ def _best(library: Array, values: Array, measured: Array, target: Target, scaled
     return np.asarray(inside)
 
 
-def _fit_block(model: BasinModel, target: Target, x: Array) -> Fitted:
+def _fit_block(model: Model, target: Target, x: Array) -> Fitted:
     n, starts, _ = x.shape
     low, high = target.low, target.high
     deflection, slopes = model.with_slopes(x)
@@ -193,7 +238,7 @@ def _fit_block(model: BasinModel, target: Target, x: Array) -> Fitted:
     )
 
 
-def _step(model: BasinModel, target: Target, x: Array, residual: Array, slopes: Array, damping: Array) -> Array:
+def _step(model: Model, target: Target, x: Array, residual: Array, slopes: Array, damping: Array) -> Array:
     """Damped step (n, v, p) with its geodesic acceleration; numbers at a bound that it would cross stay there.
 
     The acceleration follows valleys that bend, where layers trade their stiffness: half as many steps and fewer.

@@ -19,7 +19,8 @@ from treadload.identifiability import quantile
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.pavement import Pavement
-from treadload.roads.basins import Basins
+from treadload.roads.basins import Basins, Measured
+from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.scatter import scatter_of
 from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
 from treadload.roads.uncertainty import SensorError
@@ -55,18 +56,23 @@ class Backcalculation(BaseResult, group="backcalculation"):
             "layer_poisson bond_stiffness": "layer_name",
             "unknown_at_bound": "basin unknown",
             "unknown_correlation": "basin unknown other",
-            "measured_deflection fitted_deflection": "basin sensor",
             "basin_misfit error_scatter basin_freedom basin_status plate_load": "basin",
             "drop_position asphalt_temperature": "basin",
             "stiff_depth stiff_depth_deviation": "basin",
             "sensor": "sensor",
         },
+        maybe={
+            "measured_deflection fitted_deflection measured_slope fitted_slope": "basin sensor",
+            "basin_speed": "basin",
+        },
+        with_it={"measured_deflection": "fitted_deflection", "measured_slope": "fitted_slope"},
         labels={
             "station": "basin", "section": "basin", "reason": "basin", "undecided": "basin",
             "layer_name": "layer_name",
             "unknown": "unknown", "other": "other",
         },
-        numbers="plate_radius errors_given reference_temperature",
+        numbers="errors_given reference_temperature",
+        maybe_numbers="plate_radius",
         texts="plate sensor_error source",
     )  # fmt: skip
 
@@ -106,7 +112,9 @@ class Backcalculation(BaseResult, group="backcalculation"):
         return float(data["fitted_modulus"]) / part, float(data["fitted_modulus"]) * part
 
     def road(self, drop: int | str) -> Pavement:
-        """The road at a drop: its fitted moduli, thicknesses, and the stiff layer. Raises InputError if refused."""
+        """The road at a drop: its fitted moduli, thicknesses, and the stiff layer; elastic, a viscoelastic layer with
+        its modulus at 10 Hz. Raises InputError if refused.
+        """
         number = self.drop(drop)
         data = self.dataset.isel(basin=number)
         if int(data["basin_status"]) == REFUSED:
@@ -117,6 +125,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
             self.structure.layers, data["layer_name"].to_numpy(), thickness, moduli, strict=True
         ):
             if deep > 0:
+                # Of a viscoelastic layer, the elastic one of its modulus at the reference frequency.
                 material = Elastic(float(modulus), poisson_of(layer))
                 size = None if math.isinf(deep) else float(deep)
                 layers.append(replace(layer, material=material, thickness=size, name=str(name)))
@@ -202,7 +211,7 @@ def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:
 
 
 def solution(
-    basins: Basins,
+    basins: Basins | MovingBasins,
     unknowns: Unknowns,
     error: SensorError,
     fits: Fits,
@@ -243,8 +252,7 @@ def solution(
             "bond_stiffness": (("layer_name",), [layer.bond.stiffness for layer in road.layers]),
             "unknown_at_bound": (("basin", "unknown"), fits.at_bound),
             "unknown_correlation": (("basin", "unknown", "other"), fits.correlation),
-            "measured_deflection": (("basin", "sensor"), basins.deflection),
-            "fitted_deflection": (("basin", "sensor"), fits.deflection),
+            **_readings(basins, fits),
             "basin_misfit": (("basin",), fits.misfit),
             "error_scatter": (("basin",), fits.scatter),
             "basin_freedom": (("basin",), fits.freedom),
@@ -265,8 +273,7 @@ def solution(
             "other": list(unknowns.names),
             "sensor": basins.offsets,
         },
-        plate_radius=basins.plate_radius,
-        plate=basins.plate,
+        **_loading(basins),
         sensor_error=f"{error}, as given" if error.stated else f"{error} by default; their size from each misfit",
         errors_given=int(error.stated),
         reference_temperature=reference,
@@ -275,7 +282,24 @@ def solution(
     return Backcalculation(dataset, road, dict(stats), _warnings(basins, unknowns, dataset))
 
 
-def _thickness(basins: Basins, unknowns: Unknowns, names: tuple[str, ...], fits: Fits) -> Array:
+def _readings(basins: Basins | MovingBasins, fits: Fits) -> dict[str, tuple[tuple[str, ...], Array]]:
+    over = ("basin", "sensor")
+    if isinstance(basins, MovingBasins):
+        return {
+            "measured_slope": (over, basins.slope),
+            "fitted_slope": (over, fits.deflection),
+            "basin_speed": (("basin",), basins.speed),
+        }
+    return {"measured_deflection": (over, basins.deflection), "fitted_deflection": (over, fits.deflection)}
+
+
+def _loading(basins: Basins | MovingBasins) -> dict[str, float | str]:
+    if isinstance(basins, MovingBasins):
+        return {"plate": "wheels"}
+    return {"plate_radius": basins.plate_radius, "plate": basins.plate}
+
+
+def _thickness(basins: Measured, unknowns: Unknowns, names: tuple[str, ...], fits: Fits) -> Array:
     from treadload.roads.model import thicknesses
 
     table = thicknesses(basins, unknowns, names)
@@ -284,7 +308,7 @@ def _thickness(basins: Basins, unknowns: Unknowns, names: tuple[str, ...], fits:
     return table
 
 
-def _warnings(basins: Basins, unknowns: Unknowns, data: xr.Dataset) -> tuple[str, ...]:
+def _warnings(basins: Basins | MovingBasins, unknowns: Unknowns, data: xr.Dataset) -> tuple[str, ...]:
     texts = list(basins.warnings)
     status = data["basin_status"].to_numpy()
     good = status != REFUSED

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
-from treadload.roads.basins import Basins
+from treadload.errors import InputError
+from treadload.kernels.arrays import Array, IntArray
+from treadload.roads.basins import Basins, Measured
 from treadload.roads.model import models, thicknesses
-from treadload.roads.search import Target, fit
+from treadload.roads.moving_basins import MovingBasins
+from treadload.roads.moving_model import moving_models
+from treadload.roads.search import Model, Target, fit
 from treadload.roads.uncertainty import SensorError, certainty
-from treadload.roads.unknowns import DEPTH, Unknowns, layer_names
+from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, relative_modulus
 
 FITTED, FLAGGED, REFUSED = 0, 1, 2
 """Status of a drop."""
@@ -40,13 +44,13 @@ class Fits:
     undecided: Array
 
 
-def solve(basins: Basins, unknowns: Unknowns, error: SensorError, usual: float) -> Fits:
+def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float) -> Fits:
     """The fit of every drop; see `backcalculate`. What cannot be fitted is refused with its reason.
 
     usual: compliance of the whole list, of which these are a part, m/N.
     """
     names = layer_names(unknowns.road)
-    count, p, sensors = len(basins), len(unknowns.names), len(basins.offsets)
+    count, p, sensors = len(basins), len(unknowns.names), basins.readings.shape[1]
     table = thicknesses(basins, unknowns, names)
     reasons = _refusals(basins, unknowns, names, table, usual)
     flags = basins.flags()
@@ -61,9 +65,9 @@ def solve(basins: Basins, unknowns: Unknowns, error: SensorError, usual: float) 
     width = np.array(
         [math.inf if prior is None else prior[1] for prior in unknowns.priors] + [math.inf] * unknowns.seeks_depth
     )
-    for model in models(basins, unknowns, table, drops) if len(drops) else ():
+    for model in _models(basins, unknowns, table, drops):
         chosen = list(model.chosen)
-        measured = basins.deflection[model.drops]
+        measured = basins.readings[model.drops]
         target = Target(
             measured, error.at(measured), unknowns.low[chosen], unknowns.high[chosen], centre[chosen], width[chosen]
         )
@@ -87,6 +91,26 @@ def solve(basins: Basins, unknowns: Unknowns, error: SensorError, usual: float) 
     return fits
 
 
+def _models(basins: Measured, unknowns: Unknowns, table: Array, drops: IntArray) -> Sequence[Model]:
+    if not len(drops):
+        return ()
+    if isinstance(basins, MovingBasins):
+        return moving_models(basins, unknowns, table, drops)
+    assert isinstance(basins, Basins)
+    return models(basins, unknowns, table, drops)
+
+
+def _cold(basins: Measured, unknowns: Unknowns, number: int) -> str:
+    """Why the memory of a layer is not known at a drop."""
+    warmth = math.nan if basins.temperature is None else float(basins.temperature[number])
+    try:
+        for layer in unknowns.road.layers:
+            relative_modulus(layer, np.ones(1), warmth)
+    except InputError as error:
+        return str(error)
+    return ""
+
+
 def _empty(count: int, p: int, sensors: int) -> Fits:
     def nan(*shape: int) -> Array:
         return np.full((count, *shape), math.nan)
@@ -97,9 +121,9 @@ def _empty(count: int, p: int, sensors: int) -> Fits:
     )
 
 
-def _refusals(basins: Basins, unknowns: Unknowns, names: tuple[str, ...], table: Array, usual: float) -> list[str]:
+def _refusals(basins: Measured, unknowns: Unknowns, names: tuple[str, ...], table: Array, usual: float) -> list[str]:
     reasons = basins.refusals(usual)
-    readings = basins.sensors.sum(axis=1)
+    readings = np.isfinite(basins.readings).sum(axis=1)
     for number, reason in enumerate(reasons):
         if reason:
             continue
@@ -126,6 +150,8 @@ def _refusals(basins: Basins, unknowns: Unknowns, names: tuple[str, ...], table:
             reasons[number] = (
                 f"{readings[number]} readings cannot decide {bare} numbers ({sought}); fix a layer or give priors"
             )
+        else:
+            reasons[number] = _cold(basins, unknowns, number)
     return reasons
 
 

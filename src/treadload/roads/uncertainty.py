@@ -22,6 +22,8 @@ Stated = float | str | tuple[float | str, ...]
 DEFAULT_ERROR = ("2 %", "0.5 µm")
 """Weights where no error is stated: sensors are accepted at 2 % of a reading, and files round to 1 µm or less. Only
 their proportion counts then: the misfit of each basin sets the size."""
+SLOPE_ERROR = ("2 %", "10 µm/m")
+"""The same of slopes: weights alone, so that sensors near a slope of zero do not rule."""
 # A fit that misses its readings by this root mean square of relative differences is flagged: routine evaluations
 # accept 2 to 3 %.
 LARGEST_MISFIT = 0.03
@@ -33,22 +35,33 @@ _ALIKE = 3.84
 
 @dataclass(frozen=True)
 class SensorError:
-    """Standard deviation of a deflection: relative and absolute parts, m, added as squares. stated: by the user."""
+    """Standard deviation of a reading: relative and absolute parts, added as squares. stated: by the user.
+
+    absolute: m, or without a unit for slopes.
+    """
 
     relative: float
     absolute: float
     stated: bool
+    slopes: bool = False
 
     @classmethod
-    def of(cls, error: Stated | None) -> SensorError:
+    def of(cls, error: Stated | None, *, slopes: bool = False) -> SensorError:
         """error: a part of the reading, 0.02 or "2 %", a length, "2 µm", or both, ("2 %", "2 µm"); None: the default.
 
-        Raises InputError.
+        slopes: True where a slope, "10 µm/m", stands in place of a length. Raises InputError.
         """
         parts = {"": 0.0, "m": 0.0}
-        for value in DEFAULT_ERROR if error is None else error if isinstance(error, tuple | list) else (error,):
-            unit = "m" if isinstance(value, str) and value.strip().endswith("m") else ""
-            size = quantity(value, unit)
+        usual = 'a slope, "10 µm/m"' if slopes else 'a length, "2 µm"'
+        default = SLOPE_ERROR if slopes else DEFAULT_ERROR
+        for value in default if error is None else error if isinstance(error, tuple | list) else (error,):
+            ends = value.strip() if isinstance(value, str) else ""
+            unit = "m" if ends.endswith("m") else ""
+            if unit and ends.endswith("/m") != slopes:
+                raise InputError(
+                    f'error of the sensors must be a part of the reading, "2 %", or {usual}, got {value!r}'
+                )
+            size = quantity(ends.removesuffix("/m") if unit and slopes else value, unit)
             if not size >= 0 or (not unit and size > 1) or (unit and size > 1e-2):
                 raise InputError(
                     "error of the sensors must be a part of the reading up to 1, or a length up to 10 mm, got "
@@ -58,16 +71,16 @@ class SensorError:
             parts[unit] = size
         if not any(parts.values()):
             raise InputError('error of the sensors must be above 0, got 0; "2 %", "2 µm" or both are usual')
-        return cls(parts[""], parts["m"], error is not None)
+        return cls(parts[""], parts["m"], error is not None, slopes)
 
     def at(self, deflection: Array) -> Array:
         """Of deflections, m."""
         return np.hypot(self.relative * np.abs(deflection), self.absolute)
 
     def __str__(self) -> str:
-        parts = [f"{100 * self.relative:g} %"] * (self.relative > 0) + [f"{1e6 * self.absolute:g} µm"] * (
-            self.absolute > 0
-        )
+        unit = "µm/m" if self.slopes else "µm"
+        parts = [f"{100 * self.relative:g} %"] * (self.relative > 0)
+        parts += [f"{1e6 * self.absolute:g} {unit}"] * (self.absolute > 0)
         return " and ".join(parts)
 
 
@@ -101,7 +114,9 @@ def certainty(
     there = np.isfinite(measured)
     sigma = error.at(measured[there])
     apart = (fitted[there] - measured[there]) / sigma
-    misfit = float(np.sqrt(np.mean((fitted[there] / measured[there] - 1) ** 2)))
+    # Slopes pass through zero: theirs is over the size of them all.
+    size = np.sqrt(np.mean(measured[there] ** 2)) if error.slopes else measured[there]
+    misfit = float(np.sqrt(np.mean(((fitted[there] - measured[there]) / size) ** 2)))
     free = at_bound == 0
     informed = np.isfinite(widths)
     freedom = int(there.sum()) - int((free & ~informed).sum())

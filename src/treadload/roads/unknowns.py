@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload.errors import InputError, nearest, positive
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, ComplexArray
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Layer, Pavement
@@ -20,6 +20,8 @@ DEPTH = "stiff layer"
 STIFF_LAYER = 10.0
 """Depth of the stiff layer below the surface, m, where nothing is said: the middle of 7.5 to 12.5 m, where routine
 evaluations put it. On a half-space the outer sensors would need a subgrade that stiffens with depth."""
+REFERENCE_FREQUENCY = 10.0
+"""At which the modulus of a viscoelastic layer is stated as |E*|, Hz."""
 # No material of a road is softer or stiffer, Pa; a stiff layer lies at least this far below the top of the last layer
 # and no deeper than this below the surface, m: deeper ones are not felt within 2 m of the plate.
 BOUNDS = (1e6, 1e11)
@@ -89,12 +91,16 @@ def pose(
     bounds: Mapping[str, tuple[float | str, float | str]] | None = None,
     priors: Mapping[str, float | str | tuple[float | str, float | str]] | None = None,
     stiff_layer: float | str | tuple[float | str, float | str] | None = STIFF_LAYER,
+    memory: bool = False,
 ) -> Unknowns:
-    """The question to a structure, checked; arguments as those of `backcalculate`. Raises InputError."""
+    """The question to a structure, checked; arguments as those of `backcalculate`. Raises InputError.
+
+    memory: whether what was measured takes viscoelastic layers.
+    """
     if not isinstance(structure, Pavement):
         raise InputError(f"structure must be a Pavement, got {type(structure).__name__}")
     names = layer_names(structure)
-    _check_layers(structure, names)
+    _check_layers(structure, names, memory)
     for what, keys in (("fixed", fixed), ("bounds", bounds or {}), ("priors", priors or {})):
         wrong = next((name for name in keys if name not in names and (what != "bounds" or name != DEPTH)), None)
         if wrong is not None:
@@ -120,23 +126,61 @@ def pose(
 def poisson_of(layer: Layer) -> float:
     """Poisson's ratio of a layer, also of one whose modulus waits for a temperature."""
     material = elastic_part(layer.material)
-    elastic = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
-    assert isinstance(elastic, Elastic)  # `_check_layers` has seen to it
-    return float(elastic.poisson)
+    settled = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
+    assert isinstance(settled, Elastic) or hasattr(settled, "complex_modulus")  # `_check_layers` has seen to it
+    return float(settled.poisson)
 
 
 def modulus_of(layer: Layer) -> float:
-    """Young's modulus of an elastic layer, Pa; NaN of one that waits for a temperature."""
+    """Young's modulus of a layer, Pa; |E*| at the reference frequency of a viscoelastic one.
+
+    NaN of one that waits for a temperature.
+    """
     material = elastic_part(layer.material)
-    return float(material.modulus) if isinstance(material, Elastic) else math.nan
+    return math.nan if isinstance(material, TemperatureDependent) else modulus_at(material)
 
 
-def _check_layers(structure: Pavement, names: tuple[str, ...]) -> None:
+def modulus_at(material: object) -> float:
+    """Young's modulus of a material, Pa; |E*| at the reference frequency of a viscoelastic one."""
+    if isinstance(material, Elastic):
+        return float(material.modulus)
+    assert hasattr(material, "complex_modulus")
+    return float(np.abs(material.complex_modulus(np.array([2 * math.pi * REFERENCE_FREQUENCY])))[0])
+
+
+def has_memory(layer: Layer) -> bool:
+    """True of a viscoelastic layer, also of one that waits for a temperature."""
+    material = elastic_part(layer.material)
+    settled = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
+    return hasattr(settled, "complex_modulus")
+
+
+def relative_modulus(layer: Layer, omega: Array, temperature: float) -> ComplexArray:
+    """E*(ω) over |E*| at the reference frequency, both at a temperature, °C; 1 of an elastic layer.
+
+    omega: rad/s, > 0. Raises InputError outside the data of a material, and where it needs a temperature that is
+    NaN.
+    """
+    material = elastic_part(layer.material)
+    if not has_memory(layer):
+        return np.ones(len(omega), complex)
+    if isinstance(material, TemperatureDependent):
+        if not math.isfinite(temperature):
+            raise InputError(f"layer {layer.name!r} needs the temperature of the asphalt, and none is known here")
+        material = material.at(temperature)
+    assert hasattr(material, "complex_modulus")
+    modulus: ComplexArray = material.complex_modulus(omega)
+    return modulus / modulus_at(material)
+
+
+def _check_layers(structure: Pavement, names: tuple[str, ...], memory: bool) -> None:
     for name, layer in zip(names, structure.layers, strict=True):
         material = elastic_part(layer.material)
         if isinstance(material, Elastic):
             continue
         if isinstance(material, TemperatureDependent) and isinstance(material.at(_MILD), Elastic):
+            continue
+        if memory and has_memory(layer):
             continue
         raise InputError(
             f"layer {name!r} is {material}: a static basin takes isotropic elastic layers and mixes with a modulus "

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from typing import Annotated, Any, TypedDict
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from treadload.case.file import FilePart
 from treadload.case.road import RoadPart
 from treadload.pavement import Pavement
 from treadload.read import As, Table
-from treadload.roads import BasinLayout
+from treadload.roads import BasinLayout, MovingLayout
 from treadload.roads.unknowns import STIFF_LAYER
 from treadload.units import Celsius, Number
 
 # Numbers in SI of whatever kind their key asks for, or texts with units, which the verb reads.
 _Number = Number | str
 LAYOUT = As(BasinLayout)
+MOVING_LAYOUT = As(MovingLayout)
 HALF_SPACE = "none"
 """What `stiff_layer` says of a structure that ends in a half-space: TOML has no None."""
 
@@ -62,11 +63,24 @@ class SoughtPart(Table):
 
 
 class StructureFile(FilePart):
-    """A structure file: [pavement], [backcalculation] and [basins], the layout of a table of basins."""
+    """A structure file: [pavement], [backcalculation], and the layout of a table.
+
+    basins: of falling weights. moving_basins: of slopes ahead of rolling wheels, which it states; the one or the
+    other.
+    """
 
     pavement: RoadPart
     backcalculation: SoughtPart = Field(default_factory=SoughtPart)
     basins: Annotated[Any, LAYOUT] = None
+    moving_basins: Annotated[Any, MOVING_LAYOUT] = None
+
+    @model_validator(mode="after")
+    def _single_layout(self) -> StructureFile:
+        if self.basins is not None and self.moving_basins is not None:
+            raise ValueError(
+                "[basins] is of falling weights, [moving_basins] of rolling wheels; leave one of them out"
+            )
+        return self
 
     @property
     def structure(self) -> Pavement:
@@ -74,6 +88,9 @@ class StructureFile(FilePart):
         return self.pavement.untempered()
 
     @property
-    def layout(self) -> BasinLayout | None:
+    def layout(self) -> BasinLayout | MovingLayout | None:
         """Of the table of basins; None where none is given."""
+        if self.moving_basins is not None:
+            moving: MovingLayout = MOVING_LAYOUT.build(self.moving_basins)
+            return moving
         return None if self.basins is None else LAYOUT.build(self.basins)

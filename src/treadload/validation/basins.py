@@ -8,10 +8,10 @@ from collections.abc import Iterator
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.pavement import Layer, Pavement
 from treadload.response import UniformDisc, solve_response
-from treadload.roads import Basins, backcalculate
+from treadload.roads import Basins, DualWheels, MovingBasins, backcalculate
 from treadload.validation.check import Check, relative
 
 _OFFSETS = np.array([0.0, 0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5, 1.8])
@@ -47,6 +47,27 @@ def basin_checks() -> Iterator[Check]:
             fitted = float(result.dataset["fitted_modulus"][0, k])
             # Deflections of both quadratures agree to 1e-8; thin stiff layers feel that a hundred times.
             yield relative(group, f"{name}: E of layer {k + 1}, Pa", fitted, wanted, 1e-5, "our layered solver")
+    yield from _moving_checks(group)
+
+
+def _moving_checks(group: str) -> Iterator[Check]:
+    """Slopes that differences of the deflection under moving loads give, and the moduli that they lead back to."""
+    asphalt = Prony(1e10, ((0.5, 0.01), (0.4, 0.1)), 0.35)
+    layers = [Layer(asphalt, 0.15, name="asphalt"), Layer(Elastic(3e8, 0.35), 0.3, name="base")]
+    wheels, speed, step = DualWheels(0.34, 0.24, 0.22), 20.0, 1e-3
+    offsets = np.array([0.1, 0.2, 0.3, 0.45, 0.6, 0.9, 1.2, 1.5])
+    road = Pavement([*layers, Layer(Elastic(7e7, 0.4), 9.55, name="soil")], rigid_base=True)
+    x = np.sort(np.concatenate([offsets + k * step for k in (-2, -1, 1, 2)]))
+    response = solve_response(list(wheels.loads), road, depths=[0.0], x=x, y=[0.0], speed=speed)
+    down = response.dataset["displacement_z"].to_numpy().ravel()
+    u = [down[np.searchsorted(x, offsets + k * step - 0.1 * step)] for k in (-2, -1, 1, 2)]
+    slope = -_LOAD * (8 * (u[2] - u[1]) - (u[3] - u[0])) / (12 * step)
+    result = backcalculate(MovingBasins(slope[None], offsets, _load(), np.array([speed]), wheels), road)
+    wanted = (float(np.abs(asphalt.complex_modulus(20 * math.pi))), 3e8, 7e7)
+    for k, name in enumerate(("asphalt, |E*| at 10 Hz", "base", "soil")):
+        fitted = float(result.dataset["fitted_modulus"][0, k])
+        # Slopes agree to 1e-5; moduli feel that some times.
+        yield relative(group, f"moving basin: {name}, Pa", fitted, wanted[k], 2e-4, "our solver of moving loads")
 
 
 def _load() -> Array:

@@ -160,25 +160,32 @@ class Columns:
         slabs = tuple(_changed(slab, lambda entry: entry[chosen]) for slab in self.slabs)
         return Columns(self.nodes, slabs, self.poisson[chosen], self.spring, self.rigid)
 
-    def kernel(self, shear: Array) -> tuple[Array, Array]:
-        """Kernel g (n, v, nk), 1/Pa, and its limit for short waves (n, v), of shear moduli (n, v, L), Pa."""
+    def kernel(self, shear: Scalars) -> tuple[Scalars, Scalars]:
+        """Kernel g (n, v, nk), 1/Pa, and its limit for short waves, of shear moduli, Pa, real or complex.
+
+        shear: (n, v, L), the limit (n, v); or with moduli of each wavenumber (n, v, L, nk), the limit (n, v, nk).
+        """
         ones = np.ones((*shear.shape[:2], len(self.nodes)))
+        spread = shear.ndim == 4
         if self.rigid:
             zero = np.zeros_like(ones)
             below = Compliance(1.0, zero, zero, zero, zero)
         else:
-            modulus, squeeze = shear[..., -1:] * ones, (2 - 4 * self.poisson[:, -1])[:, None, None]
+            modulus = (shear[:, :, -1] if spread else shear[..., -1:]) * ones
+            squeeze = (2 - 4 * self.poisson[:, -1])[:, None, None]
             diagonal = (2 + squeeze) / (4 * modulus)
             below = Compliance(
                 1.0, diagonal, diagonal, -squeeze / (4 * modulus), (1 + squeeze) / (4 * modulus * modulus)
             )
         for number in reversed(range(len(self.slabs))):
-            modulus = shear[..., number : number + 1]
-            last = number == shear.shape[-1] - 1
+            modulus = shear[:, :, number] if spread else shear[..., number : number + 1]
+            last = number == shear.shape[2] - 1
             spring = math.inf if last else self.spring[number]
             body = Body.of(below, 0.0, self.nodes, spring, modulus)
             below = _scaled(self.slabs[number], modulus).up(body.sprung)
-        return np.asarray(below.zz), np.asarray((1 - self.poisson[:, :1]) / shear[..., 0])
+        stiffness = 1 - self.poisson[:, :1]
+        limit = stiffness[..., None] / shear[:, :, 0] if spread else stiffness / shear[..., 0]
+        return np.asarray(below.zz), np.asarray(limit)
 
 
 def _slab(nodes: Array, thickness: Array, poisson: Array) -> Slab:
@@ -196,7 +203,7 @@ def _changed(slab: Slab, change: Callable[[Scalars], Array]) -> Slab:
     return Slab(slab.bottom, c, k, t, 0.0, 0.0, 0.0)
 
 
-def _scaled(slab: Slab, modulus: Array) -> Slab:
+def _scaled(slab: Slab, modulus: Scalars) -> Slab:
     """A slab of unit shear modulus with another one, (n, v, 1)."""
     (cx, cz, cc, cd), (kx, kz, kc, kd) = slab.c, slab.k
     softness, square = 1 / modulus, modulus * modulus

@@ -1,0 +1,258 @@
+"""Moving basins: slopes of the surface that a traffic-speed deflectometer measures ahead of its rolling wheels."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from treadload.errors import InputError, positive
+from treadload.kernels.arrays import Array, BoolArray, IntArray
+from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformDisc, UniformRectangle, gather
+from treadload.roads.basins import checked_column, checked_labels
+from treadload.tables import finite_list, real_array
+
+# The line of the sensors passes at least this far beside every loaded cell, m.
+GAP = 0.005
+# A slope that no road shows under any wheel: 10 mm/m. A list whose median per newton is this far off is in other
+# units.
+_STEEPEST, _OTHER_DROP = 1e-2, 20.0
+# Speeds between walking and what a lorry cannot, m/s.
+_SLOWEST, _FASTEST = 0.5, 45.0
+# Rising towards the wheels by more than this part of the largest slope, and this much, is not a basin.
+_RISE, _RESOLUTION = 0.05, 2e-5
+
+
+@dataclass(frozen=True)
+class DualWheels:
+    """Two tires side by side, each with a uniform pressure on a rectangle.
+
+    spacing: between the middles of the tires, m. width, length: of each contact, m. `loads` makes the loads of 1 N
+    together; their middle is the origin. Raises InputError for tires without a gap between them.
+    """
+
+    spacing: float
+    width: float
+    length: float
+
+    def __post_init__(self) -> None:
+        for name in ("spacing", "width", "length"):
+            positive(name, getattr(self, name), "metres", "220 mm is 0.22")
+        if self.spacing - self.width < 2 * GAP:
+            raise InputError(
+                f"tires of {self.width * 1e3:g} mm at {self.spacing * 1e3:g} mm leave a gap of "
+                f"{(self.spacing - self.width) * 1e3:g} mm, less than {2e3 * GAP:g} mm, in which no sensor can look"
+            )
+
+    @property
+    def loads(self) -> tuple[UniformRectangle, UniformRectangle]:
+        """Both contacts, 1 N together."""
+        pressure = 0.5 / (self.length * self.width)
+        one_side = UniformRectangle(self.length, self.width, pressure, y=0.5 * self.spacing)
+        return one_side, one_side.mirrored()
+
+
+Wheels = DualWheels | Load | Sequence[Load]
+"""Dual wheels, or whatever loads a response takes: contacts, grids, rectangles, discs."""
+
+
+@dataclass(frozen=True, eq=False)
+class MovingBasins:
+    """Slopes ahead of rolling wheels, a row for each place of the road.
+
+    slope: (n, s), -∂u/∂x with u the deflection, down, and x ahead: positive ahead of the wheels, where the surface
+    goes down; velocity of the surface, down, over the speed. NaN where a sensor has none. offsets: ahead of the
+    wheels' middle (s,), m, rising, negative behind. load: on the wheels (n,), N. speed: (n,), m/s. wheels:
+    `DualWheels` or loads; only their shape counts. side: of the sensors' line to the right of the wheels' middle, m.
+    station, position, section, temperature, thickness, source: as in `Basins`. Raises InputError.
+    """
+
+    slope: Array
+    offsets: Array
+    load: Array
+    speed: Array
+    wheels: Wheels
+    side: float = 0.0
+    station: tuple[str, ...] = ()
+    position: Array | None = None
+    section: tuple[str, ...] = ()
+    temperature: Array | None = None
+    thickness: Mapping[str, Array] = field(default_factory=dict)
+    source: str = ""
+
+    def __post_init__(self) -> None:
+        offsets = finite_list(self.offsets, "offsets of the sensors", "m")
+        slope = np.atleast_2d(real_array(self.slope, "slope"))
+        count = len(slope)
+        if slope.ndim != 2 or slope.shape[1] != len(offsets):
+            raise InputError(
+                f"slope needs a row for each place and a column for each of {len(offsets)} sensors, got {slope.shape}"
+            )
+        if not (np.diff(offsets) > 0).all():
+            raise InputError(
+                f"offsets of the sensors must rise, got {', '.join(f'{r:g}' for r in offsets)} m; sort them ahead"
+            )
+        beside = min(max(low - self.side, self.side - high) for low, high in _extents(self.unit_loads))
+        if beside < GAP:
+            raise InputError(
+                f"the line of the sensors at {self.side * 1e3:g} mm passes {max(beside, 0.0) * 1e3:g} mm beside the "
+                f"loaded cells; it must pass {GAP * 1e3:g} mm or more beside them, as between dual tires"
+            )
+        columns: dict[str, Array | None] = {"position": self.position, "temperature": self.temperature}
+        for name, values in columns.items():
+            columns[name] = None if values is None else checked_column(name, values, count)
+        settled = {
+            "slope": slope, "offsets": offsets,
+            "load": checked_column("load", self.load, count), "speed": checked_column("speed", self.speed, count),
+            "station": checked_labels("station", self.station, count)
+            or tuple(str(number + 1) for number in range(count)),
+            "section": checked_labels("section", self.section, count),
+            "thickness": {
+                name: checked_column(f"thickness of {name}", values, count, least=0.0)
+                for name, values in self.thickness.items()
+            },
+            **columns,
+        }  # fmt: skip
+        for name, value in settled.items():
+            object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_velocity(
+        cls, velocity: Array, offsets: Array, load: Array, speed: Array, wheels: Wheels, **more: object
+    ) -> MovingBasins:
+        """From velocities of the surface (n, s), m/s, down, as Doppler lasers measure them. The rest as the class."""
+        values = np.atleast_2d(real_array(velocity, "velocity"))
+        along = checked_column("speed", speed, len(values))
+        with np.errstate(divide="ignore", invalid="ignore"):
+            slope = np.where(along[:, None] > 0, values / along[:, None], np.nan)
+        return cls(slope, offsets, load, along, wheels, **more)  # type: ignore[arg-type]
+
+    def __len__(self) -> int:
+        return len(self.load)
+
+    @property
+    def unit_loads(self) -> tuple[SurfaceLoad, ...]:
+        """The wheels as loads of 1 N together."""
+        placed = self.wheels.loads if isinstance(self.wheels, DualWheels) else gather(self.wheels)
+        loads = [load.cell if isinstance(load, UniformRectangle) else load for load in placed]
+        total = sum(load.normal_load for load in loads)
+        if not total > 0:
+            raise InputError(f"the wheels carry {total:g} N together; their loads need a pressure above 0")
+        return tuple(_scaled(load, 1 / total) for load in loads)
+
+    def rows(self, chosen: Sequence[int] | IntArray | BoolArray) -> MovingBasins:
+        """Some of the places, by number or by a mask."""
+        at = np.arange(len(self))[np.asarray(chosen)]
+        return replace(
+            self,
+            slope=self.slope[at],
+            load=self.load[at],
+            speed=self.speed[at],
+            station=tuple(self.station[k] for k in at),
+            section=tuple(self.section[k] for k in at) if self.section else (),
+            position=None if self.position is None else self.position[at],
+            temperature=None if self.temperature is None else self.temperature[at],
+            thickness={name: values[at] for name, values in self.thickness.items()},
+        )
+
+    @property
+    def readings(self) -> Array:
+        """What is fitted (n, s)."""
+        return self.slope
+
+    @property
+    def numbers(self) -> tuple[Array, ...]:
+        """Arrays that the answer depends on."""
+        warmth = np.zeros(0) if self.temperature is None else self.temperature
+        pressures = [np.asarray(load.pressure, dtype=float) for load in self.unit_loads]
+        return self.slope, self.offsets, self.load, self.speed, warmth, *pressures
+
+    @property
+    def conditions(self) -> tuple[object, ...]:
+        """What else it depends on."""
+        return self.side, [(load.extent_x, load.extent_y) for load in self.unit_loads]
+
+    @property
+    def sensors(self) -> BoolArray:
+        """(n, s), True where a sensor has a slope."""
+        return np.isfinite(self.slope)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What is unusual about the list as a whole."""
+        return ()
+
+    @property
+    def usual(self) -> float:
+        """Median of the largest slope over the load, 1/N; NaN without any."""
+        largest = self._largest
+        usable = largest[largest > 0]
+        return float(np.median(usable)) if len(usable) else np.nan
+
+    @property
+    def _largest(self) -> Array:
+        with np.errstate(all="ignore"):
+            per_load = np.where(self.sensors, self.slope, -np.inf).max(axis=1) / self.load
+        return np.where(np.isfinite(per_load), per_load, np.nan)
+
+    def refusals(self, usual: float) -> list[str]:
+        """For every place why it cannot be fitted, "" where it can. usual: of the whole list, 1/N."""
+        return [self._refusal(number, float(steep), usual) for number, steep in enumerate(self._largest)]
+
+    def _refusal(self, number: int, steep: float, usual: float) -> str:
+        load, speed = float(self.load[number]), float(self.speed[number])
+        if not (np.isfinite(load) and load > 0):
+            return f"its load is {load:g} N; a basin needs a load above 0"
+        if not _SLOWEST <= speed <= _FASTEST:
+            return (
+                f"its speed is {speed:g} m/s; a moving basin needs {_SLOWEST:g} to {_FASTEST:g} m/s: check the unit"
+            )
+        if not self.sensors[number].any():
+            return "no sensor has a slope"
+        if not steep > 0:
+            return (
+                "no sensor has a slope above 0; slopes are positive ahead of the wheels, where the surface goes "
+                "down: "
+                "check their sign"
+            )
+        if steep * load > _STEEPEST:
+            return f"its slope of {steep * load * 1e3:.3g} mm/m is beyond any road; check the units"
+        if np.isfinite(usual) and not 1 / _OTHER_DROP < steep / usual < _OTHER_DROP:
+            return f"its slope per load is {steep / usual:.3g} times the median of the file; are units mixed in it?"
+        return ""
+
+    def flags(self) -> list[str]:
+        """For every place what is unusual about its shape, "" for nothing."""
+        flags = []
+        for values in self.slope:
+            ahead = (self.offsets > 0) & np.isfinite(values)
+            low = float(values[ahead].min(initial=0.0))
+            most = float(np.nanmax(np.abs(values))) if np.isfinite(values).any() else 0.0
+            rises = low < -max(_RISE * most, _RESOLUTION)
+            flags.append(f"the surface rises ahead of the wheels: a slope of {low * 1e6:.3g} µm/m" if rises else "")
+        return flags
+
+    def __repr__(self) -> str:
+        return f"<MovingBasins of {len(self)} places, {len(self.offsets)} sensors, {self.source or 'no source'}>"
+
+
+def _extents(loads: Sequence[SurfaceLoad]) -> list[tuple[float, float]]:
+    """Loaded stretches across, each row of cells that carries something by itself."""
+    parts: list[tuple[float, float]] = []
+    for load in loads:
+        if isinstance(load, UniformDisc):
+            parts.append(load.extent_y)
+            continue
+        grid = load.grid
+        for row in np.flatnonzero(load.pressure.any(axis=1)):
+            middle = grid.y0 + row * grid.dy
+            parts.append((middle - 0.5 * grid.dy, middle + 0.5 * grid.dy))
+    return parts
+
+
+def _scaled(load: SurfaceLoad, factor: float) -> SurfaceLoad:
+    """Pressure alone, times a factor: the shear under wheels that roll freely is left out."""
+    if isinstance(load, UniformDisc):
+        return replace(load, pressure=load.pressure * factor)
+    return GridLoad(load.grid, np.asarray(load.pressure) * factor)
