@@ -193,7 +193,7 @@ def _of_layers(
         wave = ((np.cos(turn) * wy)[:, None] * load[0] + 1j * (np.sin(turn) * wy)[:, None] * load[1]) / k
         along = _interpolate(kx, low, high, _ALONG)
         # (s · a, nkx): what a value of g at (ky, kx) does to each sensor through each knot of kx.
-        carried: ComplexArray = (lines[rows].T[:, None, :] * along.T[None]).reshape(-1, len(rows))
+        carried = np.asarray(lines[rows].T[:, None, :] * along.T[None], dtype=complex).reshape(-1, len(rows))
         for below, above in itertools.pairwise(steps[number:]):
             inside = (k >= below) & (k < above) & (k < limit)
             if not inside.any():
