@@ -79,7 +79,7 @@ ONLY_IN = {
     "trimesh": ("tire",),
     "embreex": ("tire",),
     "skimage": ("tire",),
-    "SurfaceTopography": ("metrology",),
+    "SurfaceTopography": (),
     "pint": ("units",),
     "pydantic": ("read", "case", "steps"),
     "openpyxl": ("results",),

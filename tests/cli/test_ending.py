@@ -62,6 +62,22 @@ def test_a_signal_unwinds_what_is_open_and_ends_in_a_sentence_and_its_code(fresh
 
 
 @posix
+def test_an_interruption_that_a_library_wraps_into_its_error_is_one(fresh, capsys):
+    """pydantic's core, while it builds a schema, raises SchemaError from a KeyboardInterrupt."""
+
+    def act():
+        try:
+            signal.raise_signal(signal.SIGINT)
+        except KeyboardInterrupt as error:
+            raise RuntimeError("Error building a validator") from error
+
+    assert ended(act) == 130
+    assert capsys.readouterr().err.startswith("error: interrupted; no file was changed")
+    with pytest.raises(RuntimeError, match="without a signal"), ending.orderly():
+        raise RuntimeError("without a signal")
+
+
+@posix
 def test_what_a_user_chose_to_ignore_stays_ignored(fresh):
     signal.signal(signal.SIGHUP, signal.SIG_IGN)
     assert ended(lambda: signal.raise_signal(signal.SIGHUP)) == 0

@@ -69,6 +69,11 @@ KINDS = (
     "solved_lives",
     "stores",
     "random_lives",
+    "e57",
+    "x3p",
+    "sdf",
+    "xlsx",
+    "pictures",
 )
 _BATCH = 200
 

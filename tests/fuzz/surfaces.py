@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-import warnings
 from pathlib import Path
 
 import numpy as np
@@ -18,13 +17,6 @@ from treadload.tire import Tire
 _DX, _DY = 0.25e-3, 0.5e-3
 # Heights are written as whole micrometres; single precision of some.
 _SAME = 1e-9
-
-
-def prepare() -> None:
-    """The library is loaded before warnings are errors."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        import SurfaceTopography  # noqa: F401
 
 
 def attack(rng: random.Random, folder: Path) -> str:

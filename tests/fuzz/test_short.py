@@ -21,6 +21,11 @@ from fuzz.runner import attack_of, run
         pytest.param("fringes", 40, marks=pytest.mark.slow),
         ("contacts", 40),
         pytest.param("stores", 30, marks=pytest.mark.slow),
+        ("e57", 25),
+        ("x3p", 200),
+        ("sdf", 200),
+        ("xlsx", 8),
+        ("pictures", 60),
     ],
 )
 def test_nothing_breaks(kind, count):
@@ -28,6 +33,17 @@ def test_nothing_breaks(kind, count):
     assert not tally.failures, str(tally)
     # An attack that only ever is refused, or only ever taken, tests little; most damaged stores are made again.
     assert ({"taken"} if kind == "stores" else {"refused", "taken"}) <= set(tally.words)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("kind", "count"), [("e57", 300), ("x3p", 1000), ("sdf", 1000), ("xlsx", 200), ("pictures", 500)]
+)
+def test_files_of_other_programs_reach_the_reader(kind, count):
+    """Seven tenths are right, however they are written, and must be read as they were meant."""
+    tally = run(kind, attack_of(kind), seed=2, indices=range(count))
+    assert not tally.failures, str(tally)
+    assert tally.words["taken"] >= 0.68 * count
 
 
 @pytest.mark.parametrize("count", [pytest.param(4, id="few"), pytest.param(60, id="some", marks=pytest.mark.slow)])

@@ -47,7 +47,7 @@ def test_what_to_install_is_said_in_one_place_and_names_an_extra_that_there_is()
         for path in root.rglob("*.py")
         for name in re.findall(r"how_to_install\(['\"](\w+)", path.read_text(encoding="utf-8"))
     }
-    assert asked == {"app", "clouds", "cluster", "excel", "fringes", "metrology", "scan", "study"}
+    assert asked == {"app", "clouds", "cluster", "excel", "fringes", "scan", "study"}
     assert asked <= set(extras)
     assert how_to_install("scan") == "run  pip install 'treadload[scan]'  (in a clone  pip install '.[scan]')"
 

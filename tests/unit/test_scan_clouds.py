@@ -11,11 +11,13 @@ import pytest
 import trimesh
 
 import treadload as tl
+from fuzz.e57_files import put_together, taken_apart, written
 from tire_meshes import RIB_TREAD, pose, tire_mesh, write
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.tire import Tire
 from treadload.tire.scan.axis import sample_surface
+from treadload.tire.scan.e57_file import scan_points
 from treadload.tire.scan.panics import without_backtrace
 
 CONTACT = Grid.centred(0.15, 0.25, 3e-3)
@@ -228,6 +230,35 @@ def test_files_that_are_not_what_they_say(tmp_path):
         (tmp_path / name).write_bytes(content)
         with pytest.raises((InputError, GeometryError), match=told):
             Tire.from_scan(tmp_path / name, units="m")
+
+
+def test_poses_of_e57_are_read_by_name_and_points_are_counted(tmp_path):
+    """The order of the children of a structure means nothing (ASTM E2807); pye57 takes it as w, x, y, z."""
+    pytest.importorskip("pye57")
+    points = np.random.default_rng(1).uniform(-1, 1, (1200, 3)).astype(np.float32).astype(float)
+    turn = np.array([np.cos(0.3), np.sin(0.3), 0.0, 0.0])
+    fields = {f"cartesian{axis}": points[:, k].copy() for k, axis in enumerate("XYZ")}
+    sections, xml = taken_apart(written([fields], [(turn, np.array([1.0, 2.0, 3.0]))]))
+    parts = re.search(rb"( *<w .*\n)((?: *<[xyz] .*\n)+)", xml)
+    c, s = np.cos(0.6), np.sin(0.6)
+    wanted = points @ np.array([[1, 0, 0], [0, c, -s], [0, s, c]]).T + [1, 2, 3]
+    path = tmp_path / "a.e57"
+    for text in (xml, xml.replace(parts[0], parts[2] + parts[1])):
+        path.write_bytes(put_together(sections, text))
+        # Coordinates are written in single precision, the pose in double.
+        np.testing.assert_allclose(scan_points(path, 10**6), wanted, rtol=0, atol=1e-6)
+    for old, new, says in (
+        (b'recordCount="1200"', b'recordCount="1300"', "holds 1300 points and has 1200"),
+        (b'recordCount="1200"', b'recordCount="40000000"', "40000000 points in"),
+        (b"<w ", b"<w type='Float'>9</w><v ", "could not be read as E57"),
+    ):
+        path.write_bytes(put_together(sections, xml.replace(old, new)))
+        with pytest.raises(InputError, match=says):
+            scan_points(path, 10**9)
+    longer = re.sub(rb"(<w [^>]*>)[^<]*", rb"\g<1>1.5", xml)
+    path.write_bytes(put_together(sections, longer))
+    with pytest.raises(InputError, match=r"quaternion of the length 1\.52883"):
+        scan_points(path, 10**6)
 
 
 def test_a_panic_of_the_library_that_unpacks_prints_nothing(tmp_path, capfd):

@@ -1,5 +1,7 @@
 """Which cases a study has: keys, units, ranges, tables, samples."""
 
+import zipfile
+
 import numpy as np
 import openpyxl
 import pytest
@@ -139,6 +141,39 @@ def test_tables_with_units_in_headings_and_cells(case, tmp_path):
     book.save(tmp_path / "cases.xlsx")
     again = from_file(case, tmp_path / "cases.xlsx")
     assert [one.labels.tolist() for one in again.inputs] == [one.labels.tolist() for one in made.inputs]
+
+
+def test_a_hidden_sheet_before_the_table_is_no_table(case, tmp_path):
+    book = openpyxl.Workbook()
+    book.active.append(["friction"])
+    book.active.append([0.9])
+    book.active.sheet_state = "hidden"
+    book.create_sheet("cases").append(["friction"])
+    book["cases"].append([0.5])
+    # Formats down to the last row are no rows.
+    book["cases"].row_dimensions[1_000_000].height = 20
+    book.active = 1
+    book.save(tmp_path / "cases.xlsx")
+    assert from_file(case, tmp_path / "cases.xlsx").inputs[0].labels.tolist() == [0.5]
+
+
+def test_workbooks_that_unpack_to_too_much(case, tmp_path):
+    path = tmp_path / "cases.xlsx"
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("xl/worksheets/sheet1.xml", bytes(2**25))
+    with pytest.raises(InputError, match="more than 1000 times"):
+        from_file(case, path)
+    book = openpyxl.Workbook()
+    book.active.append(["friction"])
+    book.active.append([0.5])
+    for row in range(3, 330):
+        book.active.cell(row, 16384).value = 1
+    book.save(path)
+    with pytest.raises(InputError, match="more than 5000000 cells"):
+        from_file(case, path)
+    path.write_bytes(b"a;b")
+    with pytest.raises(InputError, match="save it again, or save the sheet as CSV"):
+        from_file(case, path)
 
 
 @pytest.mark.parametrize(

@@ -58,6 +58,10 @@ def orderly() -> Iterator[None]:
         status = DONE if isinstance(end.__context__, BrokenPipeError) else end.code
     except KeyboardInterrupt:
         _Signal.since = _Signal.since or 0.0
+    except Exception:
+        # Libraries in other languages may wrap an interruption into an error of theirs, as pydantic's core does.
+        if _Signal.since is None:
+            raise
     if _Signal.since is not None and not _Signal.is_answered:
         # It came while commands were loaded or read.
         text, status = interrupted()

@@ -127,9 +127,7 @@ def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None,
             "bar=, the box of its colour bar"
         )
     if colours is not None and not isinstance(colours, str):
-        pairs = [tuple(pair) for pair in colours]
-        if len(pairs) < 2 or any(len(pair) != 2 for pair in pairs):
-            raise InputError("colours must be two or more pairs of a colour and its pressure")
+        pairs = _pairs(colours)
         values = np.array([_pressure(pair[1]) for pair in pairs])
         if not (np.diff(values) > 0).all():
             raise InputError(f"the pressures of colours must increase, got {[pair[1] for pair in pairs]!r}")
@@ -150,6 +148,16 @@ def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None,
     named = COLOUR_MAPS.find("matplotlib").target(str(colours))
     samples: Array = np.asarray(named(np.linspace(0, 1, _SAMPLES)), dtype=np.float64)
     return Scale(255 * samples[:, :3], np.linspace(low, high, _SAMPLES), steps)
+
+
+def _pairs(colours: object) -> list[tuple[object, object]]:
+    pairs = list(colours) if isinstance(colours, list | tuple) else []
+    if len(pairs) < 2 or any(not isinstance(pair, list | tuple) or len(pair) != 2 for pair in pairs):
+        raise InputError(
+            'colours must be two or more pairs of a colour and its pressure, such as ("#0000ff", "100 kPa"), or the '
+            f"name of a colour map, got {colours!r}"
+        )
+    return [(colour, pressure) for colour, pressure in pairs]
 
 
 def _pressure(value: Any) -> float:

@@ -1,6 +1,6 @@
 """Heights of a surface from files of surface metrology: X3P, SDF, SUR, AL3D.
 
-Headers are held against the bytes of the file before SurfaceTopography, an extra, reads a value.
+Headers are compared with the bytes of the file before heights are read. No library is needed.
 """
 
 from treadload.metrology.surface_file import ENDINGS, SurfaceMap, read_surface_map

@@ -1,14 +1,20 @@
-"""X3P, a ZIP archive with an XML header (ISO 25178-72): bombs and lies are refused before a library sees it."""
+"""X3P, a ZIP archive with an XML header (ISO 25178-72): bombs and lies are refused before heights are read."""
 
 from __future__ import annotations
 
+import hashlib
 import io
 import math
 import re
 import zipfile
+from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from treadload.errors import InputError, one_line, reading
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 MOST_POINTS = 25_000_000
 _MOST_MEMBERS = 1000
@@ -19,12 +25,20 @@ _MOST_RATIO, _SMALL = 200, 2**20
 _DEEPEST, _MOST_ELEMENTS = 32, 20_000
 _HEADER = "main.xml"
 _BYTES = {"I": 2, "L": 4, "F": 4, "D": 8}
+_TYPES = {"I": "<i2", "L": "<i4", "F": "<f4", "D": "<f8"}
 _AXES = "Record1/Axes"
+_LINK = "Record3/DataLink"
 _UNSAFE = re.compile(r"^[/\\]|^[A-Za-z]:|(^|[/\\])\.\.([/\\]|$)|\0")
 
 
-def check_x3p(content: bytes, name: str) -> tuple[int, int]:
-    """(rows, columns) of the surface in an X3P file. Raises InputError with what is wrong in it."""
+def read_x3p(content: bytes, name: str) -> tuple[NDArray[np.float64], float, float]:
+    """Heights (rows, columns), m, NaN where the file marks a point as invalid, and the spacing along x and y, m.
+
+    The length of a member and its checksums, that of the archive and the MD5 of the header where it states one, must
+    fit. Raises InputError with what is wrong in the file.
+    """
+    import numpy as np
+
     if not content.startswith(b"PK"):
         raise InputError(f"{name!r} is no ZIP archive, as every X3P file is; give it the ending of its format")
     with reading(repr(name), "X3P"), zipfile.ZipFile(io.BytesIO(content)) as archive:
@@ -36,13 +50,20 @@ def check_x3p(content: bytes, name: str) -> tuple[int, int]:
                 f"{_HEADER} of {name!r} has {members[_HEADER].file_size} bytes, more than {_MOST_XML}; export again"
             )
         fields = _fields(archive.read(members[_HEADER]), name)
-        rows, columns, each = _layout(fields, name)
+        rows, columns, kind = _layout(fields, name)
         count = rows * columns
-        _check_member(archive, members, fields.get("Record3/DataLink/PointDataLink"), count * each, name)
-        valid = fields.get("Record3/DataLink/ValidPointsLink")
-        if valid:
-            _check_member(archive, members, valid, -(-count // 8), name)
-    return rows, columns
+        raw = _member(archive, members, fields, "Point", count * _BYTES[kind], name)
+        heights = np.frombuffer(raw, dtype=_TYPES[kind]).astype(np.float64).reshape(rows, columns)
+        if fields.get(f"{_LINK}/ValidPointsLink"):
+            bits = np.frombuffer(_member(archive, members, fields, "Valid", -(-count // 8), name), dtype=np.uint8)
+            valid = np.unpackbits(bits, count=count, bitorder="little").reshape(rows, columns).astype(bool)
+            heights[~valid] = np.nan
+    scale, offset = (
+        _number(fields, f"{_AXES}/CZ/{part}", name, positive=False) if f"{_AXES}/CZ/{part}" in fields else otherwise
+        for part, otherwise in (("Increment", 1.0), ("Offset", 0.0))
+    )
+    dx, dy = (_number(fields, f"{_AXES}/{axis}/Increment", name, positive=True) for axis in ("CX", "CY"))
+    return scale * heights + offset, dx, dy
 
 
 def _members(archive: zipfile.ZipFile, name: str) -> dict[str, zipfile.ZipInfo]:
@@ -114,8 +135,8 @@ def _fields(xml: bytes, name: str) -> dict[str, str]:
     return {path: "".join(parts).strip() for path, parts in texts.items()}
 
 
-def _layout(fields: dict[str, str], name: str) -> tuple[int, int, int]:
-    """Rows, columns and bytes of a height."""
+def _layout(fields: dict[str, str], name: str) -> tuple[int, int, str]:
+    """Rows, columns and the type of a height."""
     for path, wanted in (
         ("Record1/FeatureType", "SUR"), (f"{_AXES}/CX/AxisType", "I"), (f"{_AXES}/CY/AxisType", "I"),
         (f"{_AXES}/CZ/AxisType", "A"), ("Record3/MatrixDimension/SizeZ", "1"),
@@ -125,7 +146,7 @@ def _layout(fields: dict[str, str], name: str) -> tuple[int, int, int]:
                 f"{name!r} says {one_line(repr(fields.get(path)))} for {path}, a surface on even cells has "
                 f"{wanted!r}; profiles and clouds are not read, export a surface"
             )
-    if "Record3/DataLink/PointDataLink" not in fields:
+    if f"{_LINK}/PointDataLink" not in fields:
         raise InputError(f"{name!r} keeps its heights in no binary member; export it with binary data")
     kind = fields.get(f"{_AXES}/CZ/DataType", "")
     if kind not in _BYTES:
@@ -136,7 +157,7 @@ def _layout(fields: dict[str, str], name: str) -> tuple[int, int, int]:
         if path in fields:
             _number(fields, path, name, positive=path.endswith("Increment"))
     columns, rows = (_count(fields, f"Record3/MatrixDimension/Size{axis}", name) for axis in "XY")
-    return *checked_shape(rows, columns, name), _BYTES[kind]
+    return *checked_shape(rows, columns, name), kind
 
 
 def checked_shape(rows: int, columns: int, name: str) -> tuple[int, int]:
@@ -167,21 +188,38 @@ def _count(fields: dict[str, str], path: str, name: str) -> int:
     return int(text)
 
 
-def _check_member(
-    archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo], link: str | None, size: int, name: str
-) -> None:
-    """The member that the header names, in full: its length and its own checksum."""
-    if link not in members:
-        raise InputError(f"{name!r} names {one_line(repr(link))} for data, and has no such member; export it again")
-    if members[link].file_size != size:
+def _member(
+    archive: zipfile.ZipFile,
+    members: dict[str, zipfile.ZipInfo],
+    fields: dict[str, str],
+    what: str,
+    size: int,
+    name: str,
+) -> bytes:
+    """The member of "Point" data or "Valid" points that the header names, its length and checksums tried."""
+    link, checksum = {
+        "Point": ("PointDataLink", "MD5ChecksumPointData"),
+        "Valid": ("ValidPointsLink", "MD5ChecksumValidPoints"),
+    }[what]
+    path = fields.get(f"{_LINK}/{link}")
+    if path not in members:
+        raise InputError(f"{name!r} names {one_line(repr(path))} for data, and has no such member; export it again")
+    if members[path].file_size != size:
         raise InputError(
-            f"{link!r} in {name!r} has {members[link].file_size} bytes, and its header tells of {size}; it is "
+            f"{path!r} in {name!r} has {members[path].file_size} bytes, and its header tells of {size}; it is "
             "truncated or damaged, export or copy it again"
         )
-    # Unpacked once: what lies about its length or its checksum is found here.
-    with archive.open(members[link]) as stream:
-        left = size
+    with archive.open(members[path]) as stream:
+        parts, left = [], size
         while left > 0 and (part := stream.read(min(left, 2**20))):
+            parts.append(part)
             left -= len(part)
         if left or stream.read(1):
-            raise InputError(f"{link!r} in {name!r} is not as long as its archive says; export or copy it again")
+            raise InputError(f"{path!r} in {name!r} is not as long as its archive says; export or copy it again")
+    data, wanted = b"".join(parts), fields.get(f"{_LINK}/{checksum}", "")
+    if wanted and hashlib.md5(data, usedforsecurity=False).hexdigest() != wanted.casefold():
+        raise InputError(
+            f"{path!r} in {name!r} has another MD5 checksum than {checksum} in its header, {one_line(repr(wanted))}; "
+            "heights were changed after the file was written: export or copy it again"
+        )
+    return data

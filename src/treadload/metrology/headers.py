@@ -1,40 +1,59 @@
-"""Headers of SDF, SUR and AL3D held against the length of the file, before a library reads them."""
+"""SDF, SUR and AL3D: headers are compared with the length of the file before heights are read."""
 
 from __future__ import annotations
 
 import math
 import re
 import struct
+from typing import TYPE_CHECKING
 
 from treadload.errors import InputError, one_line, positive
+from treadload.labels import factor
 from treadload.metrology.archive import checked_shape
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
+# Heights (rows, columns), m, and the spacing along x and y, m.
+Map = tuple["NDArray[np.float64]", float, float]
 
 # SDF (ISO 25178-71, table 1): version, maker, two dates, points, profiles, four scales, compression, type, check.
 _SDF = struct.Struct("<8s10s12s12sHH4d3B")
+_SDF_TYPES = ("u1", "<u2", "<u4", "<f4", "i1", "<i2", "<i4", "<f8")
 _SDF_BYTES = (1, 2, 4, 4, 1, 2, 4, 8)
+# What marks a point that was not measured, by the type.
+_SDF_BAD = {1: 2**16 - 1, 2: 2**32 - 1, 5: -(2**15), 6: -(2**31)}
 _SDF_NEEDED = ("NumPoints", "NumProfiles", "Xscale", "Yscale", "Zscale", "DataType")
 _MOST_TEXT = 2**26
+_NUMBER = re.compile(rb"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[nN][aA][nN]")
 _HEADER_LINES = 100
 # SUR (Digital Surf, 512 bytes): code, format, objects, version, type; then at their places what is needed below.
 _SUR_LENGTH, _SUR_SURFACE, _SUR_PC = 512, 2, 0
+# Points that were not measured are so much below the smallest; what "inversion" did to a surface.
+_SUR_BAD, _INVERTED, _FLIPPED_Z, _FLOPPED_Z = -2, 1, 2, 3
+# Single precision of the mark of a missing point, as SurfaceTopography has it.
+_SAME_MARK = 1.5e-7
 _AL3D = b"AliconaImaging\x00\r\n"
 _TAG = 52
 _UNITS = ("m", "dm", "cm", "mm", "µm", "um", "\xe6m", "nm", "pm")
 
 
-def check_sdf(content: bytes, name: str) -> tuple[int, int]:
-    """(rows, columns) of an SDF file, binary or text. Raises InputError with what is wrong in it."""
+def read_sdf(content: bytes, name: str) -> Map:
+    """Heights and spacing of an SDF file, binary or text. Raises InputError with what is wrong in it."""
     if content.startswith(b"bISO-1.0"):
-        return _check_binary_sdf(content, name)
+        return _binary_sdf(content, name)
     if content.startswith(b"aISO-1.0"):
-        return _check_text_sdf(content, name)
+        return _text_sdf(content, name)
     raise InputError(
         f"{name!r} does not begin with aISO-1.0 or bISO-1.0, as an SDF file does (ISO 25178-71); give it the ending "
         "of its format"
     )
 
 
-def _check_binary_sdf(content: bytes, name: str) -> tuple[int, int]:
+def _binary_sdf(content: bytes, name: str) -> Map:
+    import numpy as np
+
     _check_length(content, 0, _SDF.size, name, "its header")
     _, _, _, _, columns, rows, x, y, z, _, packed, kind, _ = _SDF.unpack_from(content)
     _check_scales(name, Xscale=x, Yscale=y, Zscale=z)
@@ -45,10 +64,16 @@ def _check_binary_sdf(content: bytes, name: str) -> tuple[int, int]:
         )
     rows, columns = checked_shape(rows, columns, name)
     _check_length(content, _SDF.size, rows * columns * _SDF_BYTES[kind], name, "its heights")
-    return rows, columns
+    raw = np.frombuffer(content, dtype=_SDF_TYPES[kind], count=rows * columns, offset=_SDF.size)
+    heights = z * raw.astype(np.float64)
+    if kind in _SDF_BAD:
+        heights[raw == _SDF_BAD[kind]] = np.nan
+    return heights.reshape(rows, columns), x, y
 
 
-def _check_text_sdf(content: bytes, name: str) -> tuple[int, int]:
+def _text_sdf(content: bytes, name: str) -> Map:
+    import numpy as np
+
     if len(content) > _MOST_TEXT:
         raise InputError(
             f"{name!r} is text of {len(content)} bytes, more than {_MOST_TEXT}; export it as binary SDF (bISO-1.0)"
@@ -65,7 +90,8 @@ def _check_text_sdf(content: bytes, name: str) -> tuple[int, int]:
     missing = [key for key in _SDF_NEEDED if key not in fields]
     if missing:
         raise InputError(f"{name!r} lacks {missing[0]} in its header; export it again")
-    _check_scales(name, **{key: _float(fields[key]) for key in ("Xscale", "Yscale", "Zscale")})
+    x, y, z = (_float(fields[key]) for key in ("Xscale", "Yscale", "Zscale"))
+    _check_scales(name, Xscale=x, Yscale=y, Zscale=z)
     packed, kind = fields.get("Compression", "0"), fields["DataType"]
     if packed != "0" or not re.fullmatch("[0-7]", kind):
         raise InputError(
@@ -77,17 +103,26 @@ def _check_text_sdf(content: bytes, name: str) -> tuple[int, int]:
         raise InputError(f"{name!r} tells of {one_line(' x '.join(counts))} points; both must be whole numbers")
     rows, columns = checked_shape(int(counts[0]), int(counts[1]), name)
     body = content[sum(len(line) + 1 for line in lines[: end + 1]) :]
-    count = sum(1 for _ in re.finditer(rb"\S+", body.partition(b"*")[0]))
-    if count != rows * columns:
+    words = body.partition(b"*")[0].split()
+    if len(words) != rows * columns:
         raise InputError(
-            f"{name!r} tells of {rows} x {columns} points and has {count} heights; it is truncated or damaged, "
+            f"{name!r} tells of {rows} x {columns} points and has {len(words)} heights; it is truncated or damaged, "
             "export or copy it again"
         )
-    return rows, columns
+    wrong = next((word for word in words if word != b"BAD" and not _NUMBER.fullmatch(word)), None)
+    if wrong is not None:
+        raise InputError(
+            f"{name!r} has {one_line(repr(wrong.decode('latin-1')))} among its heights, which are numbers with "
+            "decimal points, or BAD; export or copy it again"
+        )
+    heights = z * np.array([math.nan if word == b"BAD" else float(word) for word in words])
+    return heights.reshape(rows, columns), x, y
 
 
-def check_sur(content: bytes, name: str) -> tuple[int, int]:
-    """(rows, columns) of a SUR file. Raises InputError with what is wrong in it."""
+def read_sur(content: bytes, name: str) -> Map:
+    """Heights and spacing of a SUR file. Raises InputError with what is wrong in it."""
+    import numpy as np
+
     if content.startswith(b"DSCOMPRESSED"):
         raise InputError(f"{name!r} is a compressed SUR file, which is not read; export it uncompressed")
     if not content.startswith(b"DIGITAL SURF"):
@@ -101,9 +136,10 @@ def check_sur(content: bytes, name: str) -> tuple[int, int]:
             f"{name!r} holds {objects} objects of type {kind} in byte order {order}; read is one surface (1, 2, 0): "
             "export the surface alone"
         )
-    bits, _, _, columns, rows, points = struct.unpack_from("<HiiiiI", content, 98)
+    bits, lowest, _, columns, rows, points = struct.unpack_from("<HiiiiI", content, 98)
     x, y, z = struct.unpack_from("<3f", content, 120)
     _check_scales(name, spacing_x=x, spacing_y=y, spacing_z=z)
+    metres = []
     for at in range(180, 276, 16):
         unit = content[at : at + 16].split(b"\0")[0].decode("latin-1").strip()
         if unit not in _UNITS:
@@ -111,18 +147,31 @@ def check_sur(content: bytes, name: str) -> tuple[int, int]:
                 f"{name!r} is in {one_line(repr(unit))}, no unit of length that is known ({', '.join(_UNITS[:5])}, "
                 "nm, pm); export heights and not angles or pictures"
             )
+        metres.append(factor("µm" if unit == "\xe6m" else unit, "m"))
     if bits not in (16, 32):
         raise InputError(f"{name!r} has heights of {bits} bits; 16 and 32 are known")
     rows, columns = checked_shape(rows, columns, name)
     if points != rows * columns:
         raise InputError(f"{name!r} tells of {points} points in {rows} x {columns}; export or copy it again")
     comment, private = struct.unpack_from("<2H", content, 334)
-    _check_length(content, _SUR_LENGTH + comment + private, points * bits // 8, name, "its heights")
-    return rows, columns
+    start = _SUR_LENGTH + comment + private
+    _check_length(content, start, points * bits // 8, name, "its heights")
+    raw = np.frombuffer(content, dtype=f"<i{bits // 8}", count=points, offset=start).astype(np.int64)
+    heights = metres[2] * z * raw.astype(np.float64)
+    if struct.unpack_from("<H", content, 86)[0] == 1:
+        heights[raw == lowest + _SUR_BAD] = np.nan
+    heights = heights.reshape(rows, columns)
+    inversion = struct.unpack_from("<H", content, 290)[0]
+    if inversion in (_INVERTED, _FLIPPED_Z, _FLOPPED_Z):
+        heights = -heights
+    heights = heights[:, ::-1] if inversion == _FLIPPED_Z else heights[::-1] if inversion == _FLOPPED_Z else heights
+    return heights, metres[0] * x, metres[1] * y
 
 
-def check_al3d(content: bytes, name: str) -> tuple[int, int]:
-    """(rows, columns) of an AL3D file. Raises InputError with what is wrong in it."""
+def read_al3d(content: bytes, name: str) -> Map:
+    """Heights and spacing of an AL3D file. Raises InputError with what is wrong in it."""
+    import numpy as np
+
     if not content.startswith(_AL3D):
         raise InputError(
             f"{name!r} does not begin with AliconaImaging, as an AL3D file does; give it the ending of its format"
@@ -151,7 +200,8 @@ def check_al3d(content: bytes, name: str) -> tuple[int, int]:
     numbers = [tags[key] for key in needed[:3]]
     if not all(re.fullmatch("[0-9]{1,10}", number) for number in numbers):
         raise InputError(f"{name!r} tells of Rows, Cols, offset {one_line(', '.join(numbers))}; all must be whole")
-    _check_scales(name, **{key: _float(tags[key]) for key in needed[3:5]})
+    dx, dy = (_float(tags[key]) for key in needed[3:5])
+    _check_scales(name, **dict(zip(needed[3:5], (dx, dy), strict=True)))
     mark = tags["InvalidPixelValue"]
     if mark.casefold() != "nan" and math.isnan(_float(mark)):
         raise InputError(f"{name!r} says {one_line(repr(mark))} for InvalidPixelValue, which must be a number or NaN")
@@ -161,8 +211,13 @@ def check_al3d(content: bytes, name: str) -> tuple[int, int]:
             f"{name!r} has no depth image, its offset is {numbers[2]}; export heights, not a picture alone"
         )
     # Rows are filled up to multiples of 8 bytes.
-    _check_length(content, int(numbers[2]), rows * (-(-4 * columns // 8) * 8), name, "its heights")
-    return rows, columns
+    filled = -(-columns // 2) * 2
+    _check_length(content, int(numbers[2]), rows * filled * 4, name, "its heights")
+    raw = np.frombuffer(content, dtype="<f4", count=rows * filled, offset=int(numbers[2]))
+    heights = raw.reshape(rows, filled)[:, :columns].astype(np.float64)
+    missing_mark = _float(mark)
+    heights[np.abs(heights - missing_mark) <= _SAME_MARK * abs(missing_mark)] = np.nan
+    return heights, dx, dy
 
 
 def _float(text: str) -> float:

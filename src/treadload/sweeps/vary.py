@@ -91,7 +91,7 @@ def _values(case: Case, name: str, text: str) -> list[Any]:
 
 
 def from_file(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = ()) -> Design:
-    """Cases from a CSV file or the first sheet of an Excel workbook: headings are keys, rows are cases.
+    """Cases from a CSV file or the first visible sheet of an Excel workbook: headings are keys, rows are cases.
 
     A heading may carry a unit, "normal_load [kN]"; a cell may, too. ids: headings of columns that only identify a row
     and go through to the results, as `IDS` do without being listed; so does the number of the row. A row that cannot

@@ -14,6 +14,7 @@ import numpy as np
 from treadload.errors import GeometryError, InputError, error_line, how_to_install, reading
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
+from treadload.tire.scan.e57_file import scan_points
 from treadload.tire.scan.mesh_file import Triangles
 from treadload.tire.scan.panics import without_backtrace
 
@@ -159,42 +160,7 @@ def _check_chunks(file: BinaryIO, path: Path, offset: int, size: int) -> None:
 @READERS.register("e57")
 def _of_e57(path: Path) -> Triangles:
     """Points of all scans of an E57 file, each in the frame of the file by its pose."""
-    try:
-        import pye57
-    except ImportError as error:
-        raise InputError(
-            f"reading .e57 needs pye57, which is not installed; {how_to_install('clouds')}, or, where the library "
-            "has no wheel (Linux on ARM, macOS on Intel), export the points as .las or .ply"
-        ) from error
-    _check_e57_header(path)
-    with reading(f"scan file {path.name!r}", "E57"), pye57.E57(str(path)) as file:
-        counts = [int(file.get_header(k).point_count) for k in range(file.scan_count)]
-        if not 0 < sum(counts) <= MOST_POINTS or min(counts) < 0:
-            raise InputError(
-                f"scan file {path.name!r} says it holds {sum(counts)} points, between 1 and {MOST_POINTS} can "
-                "be; it may be damaged, or hold pictures only: export it again"
-            )
-        scans: list[dict[str, Any]] = [file.read_scan(k, ignore_missing_fields=True) for k in range(file.scan_count)]
-        points = np.concatenate([np.stack([scan[f"cartesian{axis}"] for axis in "XYZ"], axis=1) for scan in scans])
-    return _checked(np.asarray(points, dtype=np.float64), path)
-
-
-def _check_e57_header(path: Path) -> None:
-    """The fixed header against the file (ASTM E2807, 48 bytes): length, and where its XML lies."""
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        head = file.read(48)
-    if not head.startswith(b"ASTM-E57") or len(head) < 48:
-        raise InputError(
-            f"scan file {path.name!r} does not begin with an E57 header; give it the ending "
-            "of its format, or export it again"
-        )
-    length, xml, xml_length, page = struct.unpack_from("<QQQQ", head, 16)
-    if length != size or page != 1024 or not 48 <= xml <= size or not 0 < xml_length <= size - xml:
-        raise InputError(
-            f"the header of {path.name!r} tells of {length} bytes with its index at byte {xml}, the file has {size}; "
-            "it is truncated or damaged, export or copy it again"
-        )
+    return _checked(scan_points(path, MOST_POINTS), path)
 
 
 def _checked(points: Array, path: Path) -> Triangles:
