@@ -153,7 +153,11 @@ def _judge(number: int, code: int, folder: Path, came_to: str) -> None:
         time.sleep(0.05)
     parts = [path for path in folder.rglob("*") if ".part" in path.name]
     if number != signal.SIGKILL:
-        if "Traceback" in said or "Exception ignored" in said:
+        # While Python itself loads the package, no handler of ours is set yet: that traceback is Python's.
+        loads = (
+            came_to == "starts" and "runpy" in said and "treadload/cli" not in said and "KeyboardInterrupt" in said
+        )
+        if not loads and ("Traceback" in said or "Exception ignored" in said):
             raise Broken(said[-1500:])
         # Before the first lines are loaded, no folder of its own is there that could be older than this start.
         own = [path for path in folder.glob("treadload-app-*") if time.time() - path.stat().st_mtime < _AGE / 2]

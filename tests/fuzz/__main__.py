@@ -38,6 +38,14 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | solved | 41 | 0 to 1 200 | 1: attack 910, an approach that moves by 5.4 % on finer cells, for 5 %; left |
 | random_lives | 1 | 0 to 10 | 1: wheels half a cell off the lattice moved apart with the cells beside them |
 | random_lives | 1 | 0 to 1 000 | 0, and no warning of a border |
+| e57 | 2 and 3 | 0 to 1 000 each | 0; 75 % taken. Before: scans with fewer points than stated, poses in another order |
+| x3p | 1 | 0 to 1 000 | 0 of 9 kinds of other writers and 13 of lies; 75 % taken |
+| x3p | 3 | 0 to 2 000 | 0 |
+| sdf | 1 and 3 | 0 to 1 000 and 2 000 | 0; 76 % taken |
+| xlsx | 3 | 0 to 1 000 | 0; 78 % taken. Before: a hidden first sheet, a sheet that claims all rows |
+| pictures | 1 | 0 to 1 000 | 1 cause: colours that are no pairs |
+| pictures | 3 | 0 to 2 000 | 1 cause: a spacing of one number in a tuple |
+| surfaces, clouds | 3 | 0 to 2 000 once more | 0, with readers of this package |
 """
 
 from __future__ import annotations

@@ -63,8 +63,11 @@ def read(
     """
     if unclear not in ("error", "missing"):
         raise InputError(f'unclear must be "error" or "missing", got {unclear!r}')
-    if spacing is None:
-        raise InputError(f'{path} is a picture and needs the size of a pixel, spacing="0.5 mm"')
+    if spacing is None or (isinstance(spacing, tuple | list) and len(spacing) != 2):
+        raise InputError(
+            f'{path} is a picture and needs the size of a pixel, spacing="0.5 mm" or both of x and y, '
+            f'("0.5 mm", "0.6 mm"), got {spacing!r}'
+        )
     pixels = _pixels(path)
     legend = _scale(path, pixels, colours, scale, bar, steps)
     if bar is not None and crop is None:
