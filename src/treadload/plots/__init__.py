@@ -28,7 +28,7 @@ from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
 from treadload.plots.interface import bond_utilisation, bonded_and_parted, sliding
 from treadload.plots.kit.figure import new_figure
-from treadload.plots.kit.files import png, save
+from treadload.plots.kit.files import png, raster, save
 from treadload.plots.kit.layers import both_sides
 from treadload.plots.kit.places import places_under
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
@@ -116,6 +116,7 @@ __all__ = [
     "plastic_strain",
     "png",
     "pressure",
+    "raster",
     "reliability_inputs",
     "reliability_years",
     "remedy_tornado",

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import base64
+import functools
 import io
-import struct
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -19,7 +20,7 @@ from PIL import Image, features
 
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, classes_of, figures_of
-from treadload.plots import png
+from treadload.plots import raster
 
 _DPI = 125.0
 # Pixels of the page for an inch of a figure.
@@ -28,17 +29,23 @@ _PAGE_DPI = 98.0
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure in the page. source: data URI. width: of the page, pixels. wide: takes the full width.
+    """A figure in the page. width: of the page, pixels. wide: takes the full width.
 
+    encoded: its data URI, once it is encoded; None where there is no figure.
     missing: why there is none, a sentence that stands in its place.
     """
 
     title: str
     caption: str
-    source: str
+    encoded: Future[str] | None
     width: int
     wide: bool
     missing: str = ""
+
+    @property
+    def source(self) -> str:
+        """The figure as a data URI; waits until it is encoded."""
+        return "" if self.encoded is None else self.encoded.result()
 
 
 def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
@@ -48,13 +55,19 @@ def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = F
         for message in ("constrained_layout not applied", "Attempting to set identical low and high"):
             warnings.filterwarnings("error", message, UserWarning)
         try:
-            image = png(draw(), dpi=_DPI)
+            image = raster(draw(), dpi=_DPI)
         # Minutes of other figures are not lost for one that fails, whatever it raises.
         except Exception as error:
             return [_missing(title, caption, wide, error)]
-    # The width stands at a fixed place of every PNG; all figures get letters of the same size.
-    (pixels,) = struct.unpack(">I", image[16:20])
-    return [Picture(title, caption, _as_data(image), round(pixels * _PAGE_DPI / _DPI), wide)]
+    # All figures get letters of the same size.
+    encoded = _encoders().submit(_as_data, image)
+    return [Picture(title, caption, encoded, round(image.width * _PAGE_DPI / _DPI), wide)]
+
+
+@functools.cache
+def _encoders() -> ThreadPoolExecutor:
+    # Pillow encodes without Python's lock: beside the drawing of the next figure.
+    return ThreadPoolExecutor(1, thread_name_prefix="treadload-pictures")
 
 
 def pictures_of(
@@ -94,18 +107,19 @@ def _drawn(figure: RegisteredFigure, drawings: Callable[[], list[Drawing]], *arg
 
 
 def _missing(title: str, caption: str, wide: bool, error: Exception) -> Picture:
-    return Picture(title, caption, "", 0, wide, f"This figure could not be drawn: {_reason(error)}.")
+    return Picture(title, caption, None, 0, wide, f"This figure could not be drawn: {_reason(error)}.")
 
 
-def _as_data(image: bytes) -> str:
-    """A PNG inside a page: as WebP without loss, a third smaller, where this Pillow writes it."""
-    kind = "png"
+def _as_data(image: Image.Image) -> str:
+    """An image inside a page: as WebP without loss, a third smaller than PNG, where this Pillow writes it."""
+    stream = io.BytesIO()
     if features.check("webp"):
-        stream = io.BytesIO()
-        with Image.open(io.BytesIO(image)) as picture:
-            picture.convert("RGB").save(stream, "webp", lossless=True, quality=20, method=1)
-        kind, image = "webp", stream.getvalue()
-    return f"data:image/{kind};base64,{base64.b64encode(image).decode('ascii')}"
+        kind = "webp"
+        image.save(stream, kind, lossless=True, quality=20, method=1)
+    else:
+        kind = "png"
+        image.save(stream, kind, compress_level=4)
+    return f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode('ascii')}"
 
 
 def _reason(error: Exception) -> str:

@@ -52,9 +52,19 @@ def png(figure: Figure, *, dpi: float = 160.0) -> bytes:
 
 
 def _pixels(figure: Figure, dpi: float) -> bytes:
-    """Drawn once and trimmed to its ink, where matplotlib draws a figure twice to find its trimmed size."""
-    canvas, resolution = figure.canvas, figure.dpi
     stream = io.BytesIO()
+    # Level 4 takes two thirds of the time of the usual 6 for files 5 % larger.
+    raster(figure, dpi=dpi).save(stream, "png", dpi=(dpi, dpi), compress_level=4)
+    return stream.getvalue()
+
+
+@styled
+def raster(figure: Figure, *, dpi: float = 160.0) -> Image.Image:
+    """A figure as an image of 8 bits a colour, trimmed to its ink. dpi: points per inch.
+
+    Drawn once, where matplotlib draws a figure twice to find its trimmed size.
+    """
+    canvas, resolution = figure.canvas, figure.dpi
     try:
         figure.set_dpi(dpi)
         agg = FigureCanvasAgg(figure)
@@ -64,17 +74,16 @@ def _pixels(figure: Figure, dpi: float) -> bytes:
         rows, columns = (np.nonzero(np.any(ink, axis=axis))[0] for axis in (1, 0))
         if ink[[0, -1]].any() or ink[:, [0, -1]].any() or not rows.size:
             # Something reaches beyond the figure's edge: only matplotlib knows how far.
+            stream = io.BytesIO()
             _draw(figure, stream, "png", dpi)
-            return stream.getvalue()
+            return Image.open(stream).convert("RGB")
         pad = round(_PAD * dpi)
         inked = image[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
         trimmed = np.pad(inked, ((pad, pad), (pad, pad), (0, 0)), constant_values=255)
     finally:
         figure.set_dpi(resolution)
         figure.set_canvas(canvas)
-    # Level 4 takes two thirds of the time of the usual 6 for files 5 % larger.
-    Image.fromarray(trimmed).save(stream, "png", dpi=(dpi, dpi), compress_level=4)
-    return stream.getvalue()
+    return Image.fromarray(trimmed)
 
 
 def _draw(figure: Figure, stream: BinaryIO, kind: str, dpi: float) -> None:
