@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -18,6 +19,7 @@ from treadload.damage.scatter import Scatter
 from treadload.errors import InputError
 from treadload.life import design_thickness, solve_life
 from treadload.life.contacts import Contacts
+from treadload.life.thickness_search import ThicknessSearch
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 
@@ -96,6 +98,41 @@ def test_a_scatter_gives_every_criterion_its_years_at_the_risk():
     assert by_scatter.dataset["exact_thickness"] == pytest.approx(
         float(by_factor.dataset["exact_thickness"]), abs=6e-4
     )
+
+
+class Drifting(ThicknessSearch):
+    """Years at the risk, 20 at 158 mm, which change by a factor and by a rate where they are solved afresh."""
+
+    def __init__(self, factor, rate):
+        design = tl.Design(TIRE, ROAD, TRAFFIC, WARM, (BASE,), scatter=Scatter(fatigue=0.3), **COARSE)
+        super().__init__(design, 1, 20.0, 0.05, {})
+        self.factor, self.rate = factor, rate
+        self.shifted = 1.0
+
+    def at_risk(self, thickness, *, fresh=False):
+        if fresh:
+            self.shifted = self.factor * math.exp(self.rate * (thickness - 0.158))
+        self.years_by_thickness[thickness] = np.array([20 * (thickness / 0.158) ** 4 * self.shifted])
+        return self.years_by_thickness[thickness]
+
+
+@pytest.mark.parametrize(
+    FACTOR_RATE_THICKNESS
+)
+def test_a_rounded_thickness_counts_with_years_at_the_risk_of_its_own(factor, rate, thickness):
+    search = Drifting(factor, rate)
+    exact, rounded = search.rounded(0.158, 0.01, (0.04, 0.4), "base")
+    assert rounded == pytest.approx(thickness)
+    assert rounded - 0.01 < exact <= rounded
+    for size in (rounded - 0.01, rounded):
+        fresh = 20 * (size / 0.158) ** 4 * factor * math.exp(rate * (size - 0.158))
+        assert search.shortest(size) == pytest.approx(fresh, rel=1e-12)
+    assert search.shortest(rounded) >= 20 > search.shortest(rounded - 0.01)
+
+
+def test_a_life_that_thickness_does_not_lengthen_is_refused():
+    with pytest.raises(InputError, match=r"160 mm, to which it is rounded up, 18\.7"):
+        Drifting(1.0, -60.0).rounded(0.158, 0.01, (0.04, 0.4), "base")
 
 
 def test_what_cannot_be_found_is_refused_in_a_sentence():

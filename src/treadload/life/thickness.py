@@ -2,28 +2,21 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import scipy
 import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
-from treadload.damage.criterion import Criterion
-from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.life import Life
 from treadload.damage.scatter import check_risks
-from treadload.damage.words import RUT
 from treadload.errors import InputError, nearest, positive
-from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
-from treadload.life.reliability import life_reliability
-from treadload.life.solve import solve_life
+from treadload.life.thickness_search import ThicknessSearch, has_risk
 from treadload.life.variants import names_of
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
@@ -31,12 +24,6 @@ from treadload.units import years_in_words
 
 # The root is found to this part of the step that the thickness is rounded to.
 _FINE = 0.1
-# From one thickness to the next in search of two with the root between them.
-_WIDER = 1.25
-# A criterion that never fails counts with so many years: a root needs a number.
-_LONG = 1e9
-# How often years at a risk are set right at the thickness that was found with those of the one before.
-_ROUNDS = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,21 +157,12 @@ def design_thickness(
     if risk is not None:
         (risk,) = check_risks([risk])
     caveats = _warned(design, risk)
-    search = _Search(design, number, target, risk, {"workers": workers, "progress": progress})
+    search = ThicknessSearch(design, number, target, risk, {"workers": workers, "progress": progress})
     if search.ruts and risk is not None:
         caveats += ("the rut has no risk: its years until the limit are those of its law as it is",)
     name = names_of(design.road)[number]
     exact = search.root(low, high, _FINE * step, name)
-    rounded = math.ceil(exact / step - 1e-9) * step
-    for thickness in (rounded, rounded - step):
-        if thickness > 0:
-            search.at_risk(thickness, fresh=True)
-    if search.shortest(rounded) < target * (1 - 1e-9):
-        raise InputError(
-            f"{name}: {exact * 1e3:.1f} mm lasts {target:g} years, but the {rounded * 1e3:g} mm that it is rounded "
-            f"up to last {search.shortest(rounded):.3g}: thickness does not lengthen this life steadily; look at "
-            "it from low to high"
-        )
+    exact, rounded = search.rounded(exact, step, (low, high), name)
     if exact == low:
         caveats += (
             f"{name}: {low * 1e3:g} mm, the lower bound of the search, lasts already; give a smaller low to find the "
@@ -215,126 +193,6 @@ def design_thickness(
     )  # fmt: skip
 
 
-@dataclass(eq=False)
-class _Search:
-    """Lives by thickness, each solved once. years_by_thickness: by criterion, at the risk, by thickness."""
-
-    design: Design
-    number: int
-    target: float
-    risk: float | None
-    running: dict[str, Any]
-    years_by_thickness: dict[float, Array] = field(default_factory=dict)
-    counts: dict[str, int] = field(default_factory=lambda: {"lives": 0, "contacts": 0, "responses": 0})
-    _lives: dict[float, Life] = field(default_factory=dict)
-    # ln of the passes at the risk over those of the life, by criterion.
-    _shift: Array | None = None
-
-    @property
-    def ruts(self) -> bool:
-        """True where a rut ends the road too."""
-        return self.design.rutting is not None and self.design.rutting.limit is not None
-
-    @property
-    def scatters(self) -> bool:
-        """True where years at the risk come from a scatter."""
-        return self.risk is not None and self.design.scatter is not None
-
-    def names(self, life: Life) -> list[str]:
-        """What ends the road, in the order of the years."""
-        return [*(criterion.name for criterion in life.criteria), *([RUT] if self.ruts else [])]
-
-    def life(self, thickness: float) -> Life:
-        """The life of the road with a thickness, at the risk where laws have one."""
-        if thickness not in self._lives:
-            design = self.design.with_thickness(self.number, thickness)
-            if self.risk is not None and not self.scatters:
-                design = replace(design, criteria=[_at(criterion, self.risk) for criterion in design.criteria])
-            life = solve_life(design, **self.running)
-            self._lives[thickness] = life
-            self.counts["lives"] += 1
-            for name in ("contacts", "responses"):
-                self.counts[name] += int(life.stats[name])
-        return self._lives[thickness]
-
-    def at_risk(self, thickness: float, *, fresh: bool = False) -> Array:
-        """Years of all criteria. fresh: with a scatter, solve what it does at this very thickness."""
-        life = self.life(thickness)
-        rut = [life.rut_years] if self.ruts else []
-        if not self.scatters:
-            self.years_by_thickness[thickness] = np.append(life.dataset["life_years"].to_numpy(), rut)
-            return self.years_by_thickness[thickness]
-        if fresh or self._shift is None:
-            self._shift = self._shifted(thickness, life)
-        passes = life.dataset["life_passes"].to_numpy() * np.exp(self._shift)
-        self.years_by_thickness[thickness] = np.array(
-            [*(self.design.traffic.years_to(float(count)) for count in passes), *rut]
-        )
-        return self.years_by_thickness[thickness]
-
-    def shortest(self, thickness: float) -> float:
-        """Years until the first criterion fails."""
-        return float(min(self.years_by_thickness.get(thickness, self.at_risk(thickness)).min(), _LONG))
-
-    def excess(self, thickness: float) -> float:
-        """Logarithm of the life over the years that are asked for."""
-        return math.log(max(float(min(self.at_risk(thickness).min(), _LONG)), 1e-9) / self.target)
-
-    def root(self, low: float, high: float, fine: float, name: str) -> float:
-        """The thickness that lasts exactly, low where that lasts already. Raises InputError where none does."""
-        root = low
-        for _ in range(_ROUNDS if self.scatters else 1):
-            ends = self._bracket(low, high, name)
-            if ends is None:
-                return low
-            before, root = root, float(scipy.optimize.brentq(self.excess, *ends, xtol=fine, rtol=1e-6))
-            if not self.scatters or abs(root - before) < 10 * fine:
-                break
-            self.at_risk(root, fresh=True)
-        return root
-
-    def _bracket(self, low: float, high: float, name: str) -> tuple[float, float] | None:
-        """Two thicknesses with the root between them, near that of the road; None where low lasts already."""
-        start_thickness = self.design.road.layers[self.number].thickness
-        assert start_thickness is not None
-        thin = thick = min(max(start_thickness, low), high)
-        while self.excess(thick) < 0:
-            if thick == high:
-                self._refuse(low, high, name)
-            thin, thick = thick, min(thick * _WIDER, high)
-        while thin == thick or self.excess(thin) >= 0:
-            if thin == low:
-                return None
-            thin, thick = max(thin / _WIDER, low), thin
-        return thin, thick
-
-    def _shifted(self, thickness: float, life: Life) -> Array:
-        assert self.risk is not None
-        design = self.design.with_thickness(self.number, thickness)
-        shifted = life_reliability(design, life, risks=[self.risk], held_back=0, **self.running)
-        self.counts["responses"] += int(shifted.stats["responses"])
-        shift = np.zeros(len(life.criteria))
-        names = [str(name) for name in shifted.dataset["criterion"].to_numpy()]
-        for number, criterion in enumerate(life.criteria):
-            if criterion.name in names:
-                passes = self.design.traffic.passes(min(shifted.years(self.risk, criterion.name), _LONG))
-                shift[number] = math.log(passes / float(life.dataset["life_passes"][number]))
-        return shift
-
-    def _refuse(self, low: float, high: float, name: str) -> None:
-        lives = {thickness: self.at_risk(thickness) for thickness in (low, high)}
-        best = max(lives, key=lambda thickness: float(lives[thickness].min()))
-        number = int(lives[best].argmin())
-        criterion = self.names(self.life(best))[number]
-        gained = float(lives[high][number] / lives[low][number])
-        helps = "" if gained > 1.05 else f", which a thicker {name} does not help"
-        raise InputError(
-            f"no thickness of {name} from {low * 1e3:g} to {high * 1e3:g} mm lasts {self.target:g} years: the "
-            f"longest life is {float(lives[best].min()):.3g} years, at {best * 1e3:g} mm, by {criterion}{helps}; "
-            "give a larger high, another layer, or a better mix"
-        )
-
-
 def _number(road: Pavement, layer: int | str) -> int:
     names = names_of(road)
     if isinstance(layer, str):
@@ -352,26 +210,11 @@ def _number(road: Pavement, layer: int | str) -> int:
     return number
 
 
-def _has_risk(law: FatigueLaw) -> bool:
-    return hasattr(law, "risk") and hasattr(law, "risk_factor")
-
-
-def _at(criterion: Criterion, risk: float) -> Criterion:
-    """The criterion with this risk in its law, where that has one."""
-    law = criterion.law
-    if not _has_risk(criterion.law_at(15.0)):
-        return criterion
-    if callable(law):
-        of_warmth = law
-        return replace(criterion, law=lambda temperature: replace(of_warmth(temperature), risk=risk))  # type: ignore[type-var]
-    return replace(criterion, law=replace(law, risk=risk))  # type: ignore[type-var]
-
-
 def _warned(design: Design, risk: float | None) -> tuple[str, ...]:
     """Sentences on laws that a risk does not reach. Raises InputError where it reaches none."""
     if risk is None or design.scatter is not None:
         return ()
-    without = [criterion for criterion in design.criteria if not _has_risk(criterion.law_at(15.0))]
+    without = [criterion for criterion in design.criteria if not has_risk(criterion.law_at(15.0))]
     if len(without) == len(design.criteria):
         raise InputError(
             f"no law of this design has a risk of its own, so that {100 * risk:g} % says nothing; give the design a "
@@ -382,7 +225,3 @@ def _warned(design: Design, risk: float | None) -> tuple[str, ...]:
         "would give it one"
         for criterion in without
     )
-
-
-def _years(years: float) -> str:
-    return "no end of" if math.isinf(years) else f"{years:.3g}"

@@ -1,0 +1,103 @@
+"""`python tests/installed.py`: README's blocks and every command with the installed treadload, outside the clone.
+
+For an environment that holds the wheel and nothing of the tests: `.ci/wheel` makes it, from the lowest or the newest
+version of every requirement. Works in a folder of its own; prints a line a step and ends with the steps that failed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+TESTS = Path(__file__).parent
+README = TESTS.parent / "README.md"
+SECONDS = 900.0
+# A page is served until it is stopped, and every row of the validation takes minutes.
+LEFT_OUT = ("app", "validate")
+TITLE = re.compile(r"^│ ([a-z][a-z-]*) ", re.MULTILINE)
+BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
+
+
+def commands(program: list[str], environment: dict[str, str]) -> list[str]:
+    """Names of the commands that `--help` lists."""
+    listed = subprocess.run([*program, "--help"], capture_output=True, text=True, encoding="utf-8", env=environment)
+    return TITLE.findall(listed.stdout.partition("Commands")[2])
+
+
+def steps(program: list[str], environment: dict[str, str], validate: bool) -> list[tuple[str, list[str]]]:
+    """(name, command) of every step, in order."""
+    blocks = [(kind, text) for kind, text in BLOCK.findall(README.read_text(encoding="utf-8"))]
+    python = [text for kind, text in blocks if kind == "python"]
+    # The second block goes on with the results of the first.
+    scripts = ["\n".join(python[:2]), *python[2:]]
+    lines = [
+        shlex.split(line, comments=True)
+        for kind, text in blocks
+        for line in text.splitlines()
+        if not kind and line.startswith("treadload ")
+    ]
+    found = [("version", [*program, "--version"])]
+    found += [(f"{name} --help", [*program, name, "--help"]) for name in commands(program, environment)]
+    found += [
+        (f"README, Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)
+    ]
+    found += [("init calibrate", [*program, "init", "calibrate", "-o", "fit.toml"])]
+    for line in lines:
+        if line[1] not in LEFT_OUT or (validate and line[1] == "validate"):
+            found.append((" ".join(line), [*program, *line[1:]]))
+    return found
+
+
+def files() -> None:
+    """Write the files that the README calls the reader's."""
+    import treadload as tl
+
+    sys.path.insert(0, str(TESTS))
+    from footprints import ribbed, tekscan
+
+    shutil.copy(tl.example_mesh(), "tire.obj")
+    Path("print.asf").write_text(tekscan([ribbed().pressure / 1e3]), encoding="latin-1")
+
+
+def main() -> int:
+    """Run every step; 1 if one fails."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--validate", action="store_true", help="validate too, which takes minutes")
+    validate = parser.parse_args().validate
+    failed = []
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        files()
+        home = Path(folder) / "home"
+        home.mkdir()
+        environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg", "PYTHONUTF8": "1"}
+        for name, command in steps([sys.executable, "-P", "-m", "treadload"], environment, validate):
+            began = time.perf_counter()
+            try:
+                done = subprocess.run(
+                    command, capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment,
+                    timeout=SECONDS,
+                )  # fmt: skip
+                code, printed = done.returncode, done.stdout + done.stderr
+            except subprocess.TimeoutExpired:
+                code, printed = -1, f"no end within {SECONDS:g} s"
+            word = "ok" if code == 0 else f"FAILED ({code})"
+            print(f"{time.perf_counter() - began:6.1f} s  {word:12}  {name}", flush=True)
+            if code or "Traceback" in printed:
+                failed.append(name)
+                print(printed[-3000:], flush=True)
+        os.chdir(TESTS)
+    print(f"{len(failed)} failed" + "".join(f"\n  {name}" for name in failed))
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
