@@ -63,7 +63,7 @@ def test_a_shorter_block_has_the_kernel_of_the_longer():
     rng = np.random.default_rng(3)
     whole, length = 24, 16
     kernel = rng.normal(size=(whole // 2 + 1, 6, 6))
-    short = shortened(kernel, whole, length)
+    short = shortened(kernel, whole, length, odd=False)
     assert short.shape == (length // 2 + 1, 6, 6)
     # u_y by q_y, the frame apart: loads on half the length see the same.
     long_kernel, short_kernel = (np.fft.irfft(k[:, 3, 3], n) for k, n in ((kernel, whole), (short, length)))
@@ -71,3 +71,4 @@ def test_a_shorter_block_has_the_kernel_of_the_longer():
     np.testing.assert_allclose(short_kernel[-length // 2 + 1 :], long_kernel[-length // 2 + 1 :], atol=1e-14)
     # What is odd along travel stays odd: in the frame the block is real.
     assert not np.iscomplexobj(short)
+    assert not np.iscomplexobj(shortened(kernel, whole, length, odd=True))

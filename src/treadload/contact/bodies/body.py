@@ -158,16 +158,16 @@ def _unit_block(
 ) -> Array | ComplexArray:
     """Block of a strip for E = 1 Pa, not to be written to: mirrored ribs share a table, and so its blocks."""
     whole = max(cells, 2 * math.ceil(0.5 * _PERIOD / dx))
-    lattice = _lattice(table, whole, dx, ahead)
+    parities = False, True
+    weights = table.lattice_weights(whole, dx, ahead)
     for strength, length in memory:
-        faded = table.on_lattice(whole, dx, ahead, length)
-        lattice = np.add(lattice, strength * without_images(faded, whole, length / dx))
-    return shortened(lattice, whole, cells) if whole > cells else lattice
-
-
-@lru_cache(maxsize=_KEPT)
-def _lattice(table: CellTable, cells: int, dx: float, ahead: float) -> Array | ComplexArray:
-    return table.on_lattice(cells, dx, ahead)
+        faded = table.lattice_weights(whole, dx, ahead, length)
+        alone = [without_images(part, whole, length / dx, odd=odd) for part, odd in zip(faded, parities, strict=True)]
+        weights = weights[0] + strength * alone[0], weights[1] + strength * alone[1]
+    if whole > cells:
+        even, odd = (shortened(part, whole, cells, odd=odd) for part, odd in zip(weights, parities, strict=True))
+        weights = even, odd
+    return table.by_weights(*weights)
 
 
 class Body(ABC):

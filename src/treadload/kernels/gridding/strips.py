@@ -210,46 +210,42 @@ class StripInverse:
         return spread
 
 
-def shortened(block: Array | ComplexArray, whole: int, length: int) -> Array | ComplexArray:
-    """A block of waves that repeat after fewer cells, whose kernel is that of the longer one as far as it reaches.
+def shortened(values: Array | ComplexArray, whole: int, length: int, *, odd: bool) -> Array | ComplexArray:
+    """Waves of a kernel that repeats after fewer cells and is that of the longer one as far as it reaches.
 
-    block: (whole // 2 + 1, 3 n, 3 n) as in `Strips`. whole, length: cells after which loads repeat, length the fewer.
-    Loads on half of the length see the kernel of the longer one, and nothing of its images.
+    values: (whole // 2 + 1, …) in the frame of `Strips`. odd: along travel, as what joins its direction to others.
+    whole, length: cells after which loads repeat, length the fewer. Returns (length // 2 + 1, …). Loads on half of
+    the length see the kernel of the longer one, and nothing of its images.
     """
-    count, half = block.shape[1] // 3, length // 2
-    parts = block.reshape(-1, 3, count, 3, count)
-    short = np.empty((half + 1, 3, count, 3, count), block.dtype)
-    for i in range(3):
-        for j in range(3):
-            frame = _FRAME[i] * _FRAME[j].conjugate()
-            kernel = fft.irfft(frame * parts[:, i, :, j], n=whole, axis=0)
-            near = np.concatenate([kernel[: half + 1], kernel[whole - (length - half - 1) :]])
-            if length % 2 == 0:
-                # Half way round, plus and minus meet.
-                near[half] = 0.5 * (kernel[half] + kernel[whole - half])
-            waves = fft.rfft(near, axis=0) / frame
-            short[:, i, :, j] = waves if np.iscomplexobj(block) else waves.real
-    return short.reshape(half + 1, *block.shape[1:])
+    half = length // 2
+    kernel = _kernel(values, whole, odd)
+    near = np.concatenate([kernel[: half + 1], kernel[whole - (length - half - 1) :]])
+    if length % 2 == 0:
+        # Half way round, plus and minus meet.
+        near[half] = 0.5 * (kernel[half] + kernel[whole - half])
+    waves = fft.rfft(near, axis=0) / (1j if odd else 1)
+    return np.asarray(waves if np.iscomplexobj(values) else waves.real)
 
 
-def without_images(block: Array | ComplexArray, length: int, fading: float) -> ComplexArray:
-    """A block of displacements that fade behind the load, without those of its images ahead.
+def without_images(values: ComplexArray, length: int, fading: float, *, odd: bool) -> ComplexArray:
+    """Waves of a kernel that fades behind the load, without those of its images ahead.
 
-    block: (length // 2 + 1, 3 n, 3 n) as in `Strips`, complex. fading: cells over which displacements fade.
-    Half way round, where the body at once feels nothing any more, what fades is that of one load and, by a geometric
-    series, of all images ahead of it; it falls with exp(-distance / fading) from there.
+    values: (length // 2 + 1, …) in the frame of `Strips`. odd: as in `shortened`. length: cells after which loads
+    repeat. fading: cells over which displacements fade. Half way round, where the body at once feels nothing any
+    more, what fades is that of one load and, by a geometric series, of all images ahead of it; it falls with
+    exp(-distance / fading) from there.
     """
-    count = block.shape[1] // 3
-    parts = block.reshape(-1, 3, count, 3, count).copy()
     offset = fft.fftfreq(length, 1 / length)
     behind = length - length // 2
-    images = fft.rfft(np.exp((offset - behind) / fading))[:, None, None]
-    for i in range(3):
-        for j in range(3):
-            frame = _FRAME[i] * _FRAME[j].conjugate()
-            half_way = fft.irfft(frame * parts[:, i, :, j], n=length, axis=0)[behind]
-            parts[:, i, :, j] -= images * half_way / frame
-    return np.asarray(parts.reshape(block.shape))
+    images = fft.rfft(np.exp((offset - behind) / fading))
+    half_way = _kernel(values, length, odd)[behind]
+    return np.asarray(values - np.multiply.outer(images, half_way) / (1j if odd else 1))
+
+
+def _kernel(values: Array | ComplexArray, length: int, odd: bool) -> Array:
+    """What waves (length // 2 + 1, …) in the frame are at distances of cells along travel (length, …)."""
+    kernel: Array = fft.irfft((1j if odd else 1) * values, n=length, axis=0)
+    return kernel
 
 
 def _along(kernel: Array, length: int, *, odd: bool) -> ComplexArray:

@@ -86,15 +86,16 @@ class CellTable:
         """Compliance (m, 3 strips, 3 strips) at waves k (m,) ≥ 0, 1/m; beyond those of the table it falls as 1/k."""
         return np.asarray(self._combined(self._weights(k)).real)
 
-    def on_lattice(self, cells: int, dx: float, ahead: float = 0.0, fading: float = 0.0) -> Array | ComplexArray:
-        """Mean displacement of cells of length dx, m, by uniform loads on others, periodic after so many cells.
+    def lattice_weights(
+        self, cells: int, dx: float, ahead: float = 0.0, fading: float = 0.0
+    ) -> tuple[Array | ComplexArray, Array | ComplexArray]:
+        """Share of every wave of the table in those of cells of length dx, m, periodic after so many: `by_weights`.
 
-        Returns (cells // 2 + 1, 3 strips, 3 strips), m/Pa, in the frame of the table: real, symmetric, positive. A
-        wave of the lattice stands for all that look alike on it. ahead: distance of the displacement from the cells,
-        m; complex where it is not 0. fading: length behind a steadily rolling load over which the displacement fades,
-        m, V T of rubber that retards it, 1/(1 - i k V T); complex where it is not 0.
+        Returns two (cells // 2 + 1, n): for what is even along travel, and for what is odd. A wave of the lattice
+        stands for all that look alike on it: mean displacement of cells by uniform loads on others. ahead: distance of
+        the displacement from the cells, m; complex where it is not 0. fading: length behind a steadily rolling load
+        over which the displacement fades, m, V T of rubber that retards it, 1/(1 - i k V T); complex where it is not 0.
         """
-        count = self.compliance.shape[1]
         number = np.arange(cells // 2 + 1)
         # Every wave of the lattice is a sum of those of the table; those against the direction of travel apart.
         forth = np.zeros((number.size, self.waves.size), complex if ahead or fading else float)
@@ -111,11 +112,20 @@ class CellTable:
                 part = part / (1 - 2j * np.pi * fading / dx * waves[seen])[:, None]
             (back if alias < 0 else forth)[seen] += part
         # Loads and displacements along travel turn round with the direction of a wave.
-        total = self._combined(forth + back)
-        turns = self._combined(forth - back)
-        third = count // 3
-        total[:, :third, third:] = turns[:, :third, third:]
-        total[:, third:, :third] = turns[:, third:, :third]
+        return forth + back, forth - back
+
+    def by_weights(self, even: Array | ComplexArray, odd: Array | ComplexArray) -> Array | ComplexArray:
+        """Compliance (m, 3 strips, 3 strips), m/Pa, of sums of the waves of the table, in its frame.
+
+        even, odd: (m, n), see `lattice_weights`; odd joins u_x to q_y and p, and q_x to u_y and u_n. Real weights of
+        the lattice give matrices that are symmetric and positive.
+        """
+        total = self._combined(even)
+        third = total.shape[1] // 3
+        along, others = np.s_[:, :third, third:], np.s_[:, third:, :third]
+        for part in (along, others):
+            turned = self.compliance[part]
+            total[part] = (odd @ turned.reshape(self.waves.size, -1)).reshape(-1, *turned.shape[1:])
         return total
 
     def _weights(self, k: Array) -> Array:
@@ -196,17 +206,27 @@ def _swept(mesh: Mesh, shear_modulus: float, lame: float, waves: Array) -> Array
             units = np.zeros((waves.size, wide + size, 3))
             units[:, wide + size - 3 :] = np.eye(3)
             forces = np.concatenate([forces, units], axis=2)
-        factor = np.linalg.inv(np.linalg.cholesky(kept))
+        factor = _inverse_factor(kept)
         forces, ahead = factor @ forces, factor @ ahead
         loaded = forces.shape[2]
         compliance[:, :loaded, :loaded] += forces.swapaxes(1, 2) @ forces
         left = -ahead.swapaxes(1, 2) @ ahead
         left[:, :size, :size] += stiff[:, 2 * size :, 2 * size :]
         brought = -ahead.swapaxes(1, 2) @ forces
-    forces = np.linalg.inv(np.linalg.cholesky(left)) @ with_load(brought, 2 * len(mesh.rows))
+    forces = _inverse_factor(left) @ with_load(brought, 2 * len(mesh.rows))
     loaded = forces.shape[2]
     compliance[:, :loaded, :loaded] += forces.swapaxes(1, 2) @ forces
     return compliance
+
+
+def _inverse_factor(stiff: Array) -> Array:
+    """L⁻¹ (waves, n, n) of symmetric positive L Lᵀ; a triangle is inverted in an eighth of the steps of a square."""
+    factors = np.linalg.cholesky(stiff)
+    for factor in factors:
+        # The transpose of a row-major triangle is the column-major one that LAPACK inverts in place.
+        inverse, _ = scipy.linalg.lapack.dtrtri(factor.T, lower=0, overwrite_c=1)
+        factor[:] = inverse.T
+    return np.asarray(factors)
 
 
 def _column(mesh: Mesh, column: int, shear_modulus: float, lame: float) -> Array:
