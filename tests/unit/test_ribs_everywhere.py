@@ -13,6 +13,7 @@ from treadload.contact import (
     solve_texture,
 )
 from treadload.contact.friction.laws import Anisotropic, Exponential, PressureDependent
+from treadload.contact.solvers import coupling
 from treadload.errors import InputError
 from treadload.materials import ElastoPlastic, VonMises
 from treadload.pavement import RoadStep
@@ -53,6 +54,18 @@ def test_friction_laws(law):
     used = np.hypot(data.traction_x / along, data.traction_y / across) - bound * data.pressure
     assert float(used.max()) <= 1e-6 * float(data.pressure.max())
     assert float(data.lateral_force) < 0 or float(data.lateral_force) > 0
+
+
+@pytest.mark.parametrize("aim", [1e-2, 1e-4, 1e-6])
+def test_friction_that_falls_settles_from_any_first_round(aim, monkeypatch):
+    # Slip spreads slowly from cell to cell where friction nearly holds; a tight first round follows it to its end.
+    monkeypatch.setattr(coupling, "_FIRST_AIM", aim)
+    wheel = tl.Rolling(
+        normal_load=LOAD, friction=Exponential(0.8, 0.3, 0.1), creepage_x=-0.01, creepage_y=0.004, speed=20.0
+    )
+    data = tl.solve_contact(TIRE, ROAD, wheel, spacing=CELL).dataset
+    # Two steady states: one in which a few cells more slide.
+    assert float(data.lateral_force) == pytest.approx(-294.1, rel=3e-3)
 
 
 def test_the_layers_of_a_road(rolled):

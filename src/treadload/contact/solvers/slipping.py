@@ -26,9 +26,12 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.mixing import Anderson
 
 _MOST_ROUNDS = 200
-# Share of the way to the new slip; halved where the rounds move apart.
+# Share of the way to the new slip of a cell: halved where a round turns round what the last one did, and larger again
+# where it goes on. Friction that falls lets slip spread from cell to cell, slowly near the limit of stick, and faster
+# once it has begun: rounds that move more than the last ones are no sign that they diverge.
 _RELAXATION = 0.7
 _LEAST_RELAXATION = 0.02
+_TURNED, _ONWARD = 0.5, 1.3
 # Of friction that rises: rounds that are mixed, the reserve of a bound that must carry forces, and slips, over the
 # rolling speed, at which a law is asked what it can carry; of its coefficients, what is round-off, and what is not.
 _MEMORY, _RESERVE = 8, 1.02
@@ -79,7 +82,8 @@ def solve_slipping(
         bound = rising.enough(bound)
     solution = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=start, tolerance=tolerance)
     newton, krylov, splitting = solution.newton, solution.krylov, solution.splitting
-    share, before, change = _RELAXATION, np.inf, 0.0
+    share: Array = np.full(bound.shape, _RELAXATION)
+    before, change = np.zeros_like(at.slip), 0.0
     for rounds in range(1, _MOST_ROUNDS + 1):
         if law.needs_speed:
             wanted = law.bound(replace(at, slip=solution.slip))
@@ -98,10 +102,11 @@ def solve_slipping(
             newton, krylov = newton + solution.newton, krylov + solution.krylov
             splitting += solution.splitting
             continue
-        if change > before:
-            share = max(0.5 * share, _LEAST_RELAXATION)
-        before = change
-        at = replace(at, slip=at.slip + share * (solution.slip - at.slip))
+        step = solution.slip - at.slip
+        along = (step * before).sum(0)
+        share = np.clip(share * np.where(along < 0, _TURNED, _ONWARD), _LEAST_RELAXATION, _RELAXATION)
+        before = step
+        at = replace(at, slip=at.slip + share * step)
         bound = law.bound(at)
         _check_fallen(influence, law, bound, forces)
         solution = solve_rolling(influence, bound, rigid, forces, axes=law.axes, start=solution, tolerance=tolerance)

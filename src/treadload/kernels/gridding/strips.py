@@ -227,7 +227,7 @@ def shortened(values: Array | ComplexArray, whole: int, length: int, *, odd: boo
     return np.asarray(waves if np.iscomplexobj(values) else waves.real)
 
 
-def without_images(values: ComplexArray, length: int, fading: float, *, odd: bool) -> ComplexArray:
+def without_images(values: Array | ComplexArray, length: int, fading: float, *, odd: bool) -> ComplexArray:
     """Waves of a kernel that fades behind the load, without those of its images ahead.
 
     values: (length // 2 + 1, …) in the frame of `Strips`. odd: as in `shortened`. length: cells after which loads

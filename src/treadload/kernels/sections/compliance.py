@@ -92,9 +92,10 @@ class CellTable:
         """Share of every wave of the table in those of cells of length dx, m, periodic after so many: `by_weights`.
 
         Returns two (cells // 2 + 1, n): for what is even along travel, and for what is odd. A wave of the lattice
-        stands for all that look alike on it: mean displacement of cells by uniform loads on others. ahead: distance of
-        the displacement from the cells, m; complex where it is not 0. fading: length behind a steadily rolling load
-        over which the displacement fades, m, V T of rubber that retards it, 1/(1 - i k V T); complex where it is not 0.
+        stands for all that look alike on it: mean displacement of cells by uniform loads on others. ahead: distance
+        of the displacement from the cells, m; complex where it is not 0. fading: length behind a steadily rolling
+        load over which the displacement fades, m, V T of rubber that retards it, 1/(1 - i k V T); complex where it is
+        not 0.
         """
         number = np.arange(cells // 2 + 1)
         # Every wave of the lattice is a sum of those of the table; those against the direction of travel apart.
