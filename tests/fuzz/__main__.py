@@ -39,7 +39,7 @@ were repeated, but for case 45700 and results 4665 and 4667, whose attack has ch
 | solved_lives | 41 | 0 to 500 | 0; 25, 45 and 184 take 25 to 55 s, above the bound of other kinds |
 | random_lives | 1 | 0 to 10 | 1: wheels half a cell off the lattice moved apart with the cells beside them |
 | random_lives | 1 | 0 to 1 000 | 0, and no warning of a border |
-| e57 | 2 and 3 | 0 to 1 000 each | 0; 75 % taken. Before: scans with fewer points than stated, poses in another order |
+| e57 | 2 and 3 | 0 to 1 000 each | 0; 75 % taken. Before: scans with fewer points than stated, poses out of order |
 | x3p | 1 | 0 to 1 000 | 0 of 9 kinds of other writers and 13 of lies; 75 % taken |
 | x3p | 3 | 0 to 2 000 | 0 |
 | sdf | 1 and 3 | 0 to 1 000 and 2 000 | 0; 76 % taken |

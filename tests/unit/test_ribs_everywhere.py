@@ -103,11 +103,52 @@ def test_enveloping_and_texture(rolled):
     assert 0 < float(real.dataset.real_area) < rolled.area * 1.2
 
 
-def test_what_is_rejected_with_a_reason():
-    with pytest.raises(InputError, match=r'tread = "layer"'):
-        cross_obstacle(TIRE, ROAD, FREE, RoadStep(5e-3), positions=[0.0], spacing=CELL)
-    plastic = tl.Pavement.half_space(ElastoPlastic(tl.Elastic(5e7, 0.3), VonMises(1e5)))
-    with pytest.raises(InputError, match="layer"):
-        roll_drum(TIRE, plastic, LOAD, passes=1, spacing=(CELL, CELL))
-    with pytest.raises(InputError, match="layer"):
-        solve_indentation(TIRE, plastic, [LOAD], spacing=CELL)
+class Flat:
+    """A road whose relief is none."""
+
+    def height(self, x, y):
+        return np.zeros((len(y), len(x)))
+
+
+class Wavy:
+    """Waves across travel, 1 mm high."""
+
+    def height(self, x, y):
+        return np.broadcast_to(1e-3 * np.cos(2 * np.pi * x / 0.08), (len(y), len(x)))
+
+
+def test_the_relief_of_a_road(rolled):
+    flat, wavy = (tl.solve_contact(TIRE, ROAD, FREE, spacing=CELL, relief=relief) for relief in (Flat(), Wavy()))
+    assert np.array_equal(flat.dataset.pressure, rolled.dataset.pressure)
+    assert float(wavy.dataset.pressure.max()) > 1.2 * float(flat.dataset.pressure.max())
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.6])
+def test_crossing_a_step(friction):
+    wheel = tl.Rolling(normal_load=LOAD, friction=friction)
+    pressed = tl.solve_contact(TIRE, ROAD, tl.Rolling(normal_load=LOAD, friction=0.0), spacing=CELL)
+    crossed = cross_obstacle(TIRE, ROAD, wheel, RoadStep(5e-3), positions=[-0.16, 0.0, 0.16], spacing=CELL).dataset
+    # Clear of the step the pressure is that of the plane, without friction; the axle has risen by its height.
+    plain = float(pressed.dataset.pressure.max())
+    assert crossed.largest_pressure.values[[0, 2]] == pytest.approx(plain, rel=1e-4)
+    assert float(crossed.approach[0] - crossed.approach[2]) == pytest.approx(5e-3, rel=1e-3)
+    assert crossed.contact_area.values[[0, 2]] == pytest.approx(pressed.area, rel=1e-9)
+    assert float(crossed.largest_pressure[1]) > 1.5 * plain
+
+
+def test_a_road_that_is_dented():
+    plastic = tl.Pavement.half_space(ElastoPlastic(tl.Elastic(2e8, 0.3), VonMises(5e5)))
+    dented = solve_indentation(TIRE, plastic, [LOAD, 0.0], spacing=CELL).dataset
+    assert float(dented.largest_plastic_strain[0]) > 1e-4
+    # The dent stays when the tire is lifted.
+    assert float(dented.residual_displacement_z[1].max()) > 1e-6
+    with pytest.raises(InputError, match="fewer than 3 cells"):
+        roll_drum(TIRE, plastic, LOAD, passes=1, spacing=(CELL, 0.015))
+
+
+@pytest.mark.slow
+def test_a_track_that_yields():
+    plastic = tl.Pavement.half_space(ElastoPlastic(tl.Elastic(2e8, 0.3), VonMises(5e5)))
+    rolled = roll_drum(TIRE, plastic, LOAD, passes=1, spacing=(CELL, CELL)).dataset
+    assert float(rolled.rut_depth[0]) > 0
+    assert float(rolled.rolling_resistance[0]) > 0

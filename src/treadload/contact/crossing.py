@@ -25,8 +25,9 @@ from treadload.contact.crossing_fields import STRIDE, Moved, Scene, doubts, fiel
 from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.relief import above, check_step
+from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solve import check_border, place
+from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
@@ -142,12 +143,13 @@ def cross_obstacle(
     bodies = Pair(surface_of(tire.elastic, is_tire=True), road_surface(road, road_compliance))
     if rolling.law.largest > 0:
         bodies.both.check_shear()
+    prepare_ribs(tire, cell_across(tire, spacing), tell)
     tell("locating the contact")
     dx, low, high = _reach(tire, rolling, bodies, spacing, relief)
     check_step(relief, dx)
     steps = _steps(positions, dx, low, high)
     grid = _grid(tire, rolling, bodies, spacing, relief, steps, dx)
-    influence = Influence(grid.shape, grid.dx, grid.dy, bodies.both)
+    influence = Influence(grid.shape, grid.dx, grid.dy, bodies.both, grid.y0)
     # As sharp as `solve_coupled` presses, whose plain contact this is.
     tight = tolerance if abs(influence.dundurs) <= tolerance else 0.5 * tolerance
     scene = Scene(tire, relief, rolling, grid, influence, tire.height_map(grid), steps)
@@ -183,7 +185,7 @@ def _reach(
     """Cell along travel, and positions at which the contact on a plane is clear of the obstacle, m."""
     grid, gap = place(tire, rolling, bodies.both, spacing)
     first = solve_normal(
-        Influence(grid.shape, grid.dx, grid.dy, bodies.both), gap, load=rolling.normal_load, tolerance=1e-2
+        Influence(grid.shape, grid.dx, grid.dy, bodies.both, grid.y0), gap, load=rolling.normal_load, tolerance=1e-2
     )
     touching = np.abs(grid.x[np.any(first.pressure > 0, axis=0)]).max(initial=0.0) + 2 * grid.dx
     edges = getattr(relief, "edges", (0.0,))

@@ -19,6 +19,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array, IntArray
 from treadload.pavement.relief import Relief
 from treadload.tire import Tire
+from treadload.tire.rib_rows import shares_of_rows
 from treadload.variables import dataset
 
 STRIDE = 4
@@ -78,7 +79,7 @@ def fields_of(
     """
     grid, steps, place_of = scene.grid, scene.steps, scene.road_x
     edges = np.asarray(getattr(scene.relief, "edges", (0.0,)), dtype=float)
-    area = grid.cell_area
+    area, shares = grid.cell_area, shares_of_rows(grid.y, grid.dy, scene.tire.ribs)
     wide = (grid.ny, len(place_of))
     highest, closing, sliding = np.zeros(wide), np.zeros(wide), np.zeros(wide)
     before, depth = np.zeros(wide), np.full(wide, -np.inf)
@@ -103,7 +104,7 @@ def fields_of(
         for name, value in (
             ("normal_load", load),
             ("approach", contact.approach),
-            ("contact_area", float((contact.pressure > 0).sum()) * area),
+            ("contact_area", float(shares @ (contact.pressure > 0).sum(axis=1)) * area),
             ("largest_pressure", float(contact.pressure.max())),
             ("edge_pressure", float(contact.pressure[:, near].max(initial=0.0))),
             ("share_before", _share(along, here < edges.min() - _NEAR * grid.dx, load)),

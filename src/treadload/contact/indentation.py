@@ -19,8 +19,9 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.load_steps import STEP_ERROR, Pressed, Pressing, step_error
+from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solve import check_border, place
+from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.yielding import Ground, Yielding
 from treadload.errors import InputError, positive
@@ -31,6 +32,7 @@ from treadload.materials import ElastoPlastic, PassesPowerLaw, Perzyna
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
 from treadload.tire import Tire
+from treadload.tire.rib_rows import shares_of_rows
 from treadload.variables import SAMPLE
 
 # Depth of the rows, in radii of the elastic contact under the largest load.
@@ -128,9 +130,10 @@ def solve_indentation(
     tell = (lambda text: None) if progress is None else progress
     material, steps = _checked(road, loads, depth, layers, tolerance)
     pair = Pair.of(tire, road)
+    prepare_ribs(tire, cell_across(tire, spacing), tell)
     most = Rolling(normal_load=2 * max(steps), friction=1.0)
     grid, gap = place(tire, most, pair.both, spacing)
-    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
+    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest, grid.y0)
     normal = solve_normal(influence, gap, load=max(steps), tolerance=1e-4)
     if depth is None:
         touched = normal.pressure > 0
@@ -155,7 +158,8 @@ def solve_indentation(
         "step_error": error,
         "memory_mb": pressing.zone.stress_of_strain.bytes / 1e6,
     }
-    data = _dataset(grid, ground, history, type(material.law).__name__)
+    shares = shares_of_rows(grid.y, grid.dy, tire.ribs)
+    data = _dataset(grid, ground, history, type(material.law).__name__, shares)
     largest = float(data["largest_plastic_strain"].max())
     warnings = []
     if largest > _SMALL:
@@ -221,13 +225,14 @@ def _check_sides(p: Array, depth: float, number: int) -> None:
             )
 
 
-def _dataset(grid: Grid, ground: Ground, steps: Sequence[Pressed], law: str) -> xr.Dataset:
+def _dataset(grid: Grid, ground: Ground, steps: Sequence[Pressed], law: str, shares: Array) -> xr.Dataset:
+    """shares: what part of a cell every row stands for, (ny,)."""
     pressure = np.array([step.pressure for step in steps])
     hardening = np.array([step.state.hardening for step in steps])
     fields: dict[str, tuple[tuple[str, ...], Any]] = {
         "normal_load": (("step",), np.array([step.load for step in steps])),
         "approach": (("step",), np.array([step.approach for step in steps])),
-        "contact_area": (("step",), (pressure > 0).sum(axis=(1, 2)) * grid.cell_area),
+        "contact_area": (("step",), (pressure > 0).sum(axis=2) @ shares * grid.cell_area),
         "peak_pressure": (("step",), pressure.max(axis=(1, 2))),
         "peak_pressure_error": (("step",), np.array([step.peak_error for step in steps])),
         "largest_plastic_strain": (("step",), hardening.max(axis=(1, 2, 3))),

@@ -30,6 +30,11 @@ class AboveRelief:
     relief: Relief
 
     @property
+    def tread_surface(self) -> Surface:
+        """The tread itself."""
+        return self.surface
+
+    @property
     def extent(self) -> tuple[float, float]:
         """Of the tread."""
         return self.surface.extent
@@ -56,7 +61,11 @@ class AboveRelief:
 
     def height_map(self, grid: Grid) -> Array:
         """(ny, nx) gap, m, from the tread to the road; NaN where there is no material."""
-        return self.surface.height_map(grid) - heights_on(self.relief, grid)
+        return self.above_road(self.surface.height_map(grid), grid)
+
+    def above_road(self, gap: Array, grid: Grid) -> Array:
+        """(ny, nx) gap to the road, m, of a gap to its plane."""
+        return gap - heights_on(self.relief, grid)
 
 
 def above(tire: Tire, relief: Relief) -> Tire:

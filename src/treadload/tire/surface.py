@@ -57,6 +57,20 @@ class Surface(Protocol):
         ...
 
 
+@runtime_checkable
+class Raised(Protocol):
+    """A tread's surface above a road that is no plane: the tread is that of `tread_surface`."""
+
+    @property
+    def tread_surface(self) -> Surface:
+        """The tread itself."""
+        ...
+
+    def above_road(self, gap: Array, grid: Grid) -> Array:
+        """(ny, nx) gap to the road, m, of a gap to its plane."""
+        ...
+
+
 def fingerprint(*parts: object) -> str:
     """Digest of arrays and printable values: equal contents give equal text."""
     digest = hashlib.sha256()

@@ -29,6 +29,7 @@ from treadload.tire.quality import ScanQuality
 from treadload.tire.rib_rows import gap_on_faces, with_bands
 from treadload.tire.ribs import RibGroup, cross_section_of, ribs_between
 from treadload.tire.surface import (
+    Raised,
     Surface,
     asked_units,
     centred_height_map,
@@ -256,12 +257,18 @@ class Tire:
         section, belt = self.cross_section, self._belt_below_ribs
         assert section is not None
         groups = ribs_between(section, belt.tread_thickness)
-        return with_bands(groups, self.surface.profile) if isinstance(self.surface, ProfileSurface) else groups
+        surface = self._tread_surface
+        return with_bands(groups, surface.profile) if isinstance(surface, ProfileSurface) else groups
 
     @property
     def cross_section(self) -> TreadSection | None:
         """Ends and circumferential grooves of the tread; None where its surface does not know them."""
-        return cross_section_of(self.surface)
+        return cross_section_of(self._tread_surface)
+
+    @property
+    def _tread_surface(self) -> Surface:
+        """The tread, without the road's relief that it stands above."""
+        return self.surface.tread_surface if isinstance(self.surface, Raised) else self.surface
 
     @property
     def rib_sides(self) -> RibSides:
@@ -377,10 +384,11 @@ class Tire:
         Raises InputError when the tread is known on another grid only, GeometryError when it has no usable
         surface there.
         """
-        gap = self.surface.height_map(grid)
-        if self.tread == "ribs" and isinstance(self.surface, ProfileSurface):
-            return gap_on_faces(self.surface.profile, grid, self.ribs, gap)
-        return gap
+        surface = self._tread_surface
+        if self.tread != "ribs" or not isinstance(surface, ProfileSurface):
+            return self.surface.height_map(grid)
+        gap = gap_on_faces(surface.profile, grid, self.ribs, surface.height_map(grid))
+        return self.surface.above_road(gap, grid) if isinstance(self.surface, Raised) else gap
 
     def __str__(self) -> str:
         parts: list[Any] = [self.name or "tire", self.surface]

@@ -123,8 +123,8 @@ class CellTable:
         """
         total = self._combined(even)
         third = total.shape[1] // 3
-        along, others = np.s_[:, :third, third:], np.s_[:, third:, :third]
-        for part in (along, others):
+        by_across, by_along = np.s_[:, :third, third:], np.s_[:, third:, :third]
+        for part in (by_across, by_along):
             turned = self.compliance[part]
             total[part] = (odd @ turned.reshape(self.waves.size, -1)).reshape(-1, *turned.shape[1:])
         return total

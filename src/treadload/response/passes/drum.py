@@ -22,6 +22,7 @@ import xarray as xr
 from treadload import variables
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
+from treadload.contact.bounds import check_ribs
 from treadload.contact.solve import BorderError, check_border
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.errors import ConvergenceError, InputError, positive
@@ -52,6 +53,7 @@ from treadload.response.passes.stepping import (
 )
 from treadload.response.several import Question, answers
 from treadload.tire import Tire
+from treadload.tire.rib_rows import shares_of_rows
 
 # Cells that the elastic contact is found on, along and across, first on all of the drum and then around it; how many
 # of its half lengths that reaches.
@@ -182,8 +184,9 @@ def _elastic(drum: Tire, pair: Pair, load: float) -> GridLoad:
 
 
 def _pressed(drum: Tire, pair: Pair, grid: Grid, load: float) -> GridLoad:
-    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
-    normal = solve_normal(influence, drum.surface.height_map(grid), load=load, tolerance=1e-3)
+    check_ribs(drum, grid.dy)
+    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest, grid.y0)
+    normal = solve_normal(influence, drum.height_map(grid), load=load, tolerance=1e-3)
     check_border(normal.pressure, grid)
     return GridLoad(grid, normal.pressure)
 
@@ -251,8 +254,9 @@ def _grown(
 
 def _rolled(question: Problem, drum: Tire, pair: Pair, box: Box, load: float) -> _Rolled:
     grid = Grid(box.nx, box.ny, box.dx, box.dy, box.x0, box.y0)
-    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest)
-    gap = drum.surface.height_map(grid)
+    check_ribs(drum, grid.dy)
+    influence = Influence(grid.shape, grid.dx, grid.dy, pair.both.at_rest, grid.y0)
+    gap = drum.height_map(grid)
     unit_load = GridLoad(Grid(1, 1, box.dx, box.dy, 0.0, 0.0), np.ones((1, 1)))
     x, y = box.dx * np.arange(1 - box.nx, box.nx), box.dy * np.arange(1 - box.ny, box.ny)
     view = View(x, y, components=range(6))
@@ -296,7 +300,7 @@ def _of_contacts(rolled: _Rolled, drum: Tire) -> xr.Dataset:
     """What each pass finds of the contact."""
     grid, contacts = rolled.grid, rolled.contacts
     pressure = np.array([contact.pressure for contact in contacts])
-    touching = pressure > 0
+    touching, shares = pressure > 0, shares_of_rows(grid.y, grid.dy, drum.ribs)
     moment = (pressure * grid.x).sum(axis=(1, 2)) * grid.cell_area
     radius = getattr(drum.surface, "outer_radius", None)
     force = np.full(len(contacts), np.nan) if radius is None else moment / radius
@@ -305,7 +309,7 @@ def _of_contacts(rolled: _Rolled, drum: Tire) -> xr.Dataset:
         "approach": (("pass",), np.array([contact.approach for contact in contacts])),
         "contact_length": (("pass",), touching.any(axis=1).sum(axis=1) * grid.dx),
         "contact_width": (("pass",), touching.any(axis=2).sum(axis=1) * grid.dy),
-        "contact_area": (("pass",), touching.sum(axis=(1, 2)) * grid.cell_area),
+        "contact_area": (("pass",), touching.sum(axis=2) @ shares * grid.cell_area),
         "peak_pressure": (("pass",), pressure.max(axis=(1, 2))),
         "pressure_centre_x": (("pass",), moment / rolled.load),
         "rolling_resistance": (("pass",), force),
