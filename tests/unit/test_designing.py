@@ -117,7 +117,7 @@ class Drifting(ThicknessSearch):
 
 
 @pytest.mark.parametrize(
-    FACTOR_RATE_THICKNESS
+    ("factor", "rate", "thickness"), [(1, 0, 0.16), (1, -3, 0.16), (0.9, 0, 0.17), (1.4, 5, 0.15)]
 )
 def test_a_rounded_thickness_counts_with_years_at_the_risk_of_its_own(factor, rate, thickness):
     search = Drifting(factor, rate)
