@@ -37,6 +37,8 @@ def fitted_basins(backcalculation: Source, *, stations: tuple[str, ...] = ()) ->
     over the range of misfits. Returns the figure. Raises InputError if variables or stations are missing.
     """
     data = fields_of(backcalculation, "basin_status", "basin_misfit")
+    if "measured_history" in data:
+        return _histories(data, stations)
     kind = "slope" if "measured_slope" in data else "deflection"
     data = fields_of(data, f"measured_{kind}", f"fitted_{kind}")
     axis, value = _AXES[kind]
@@ -133,6 +135,32 @@ def moduli_along(backcalculation: Source, *, load: float | None = None) -> Figur
         handles, labels = axes[0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower right", ncols=len(classes), fontsize=8)
     headline(axes[0], "Moduli along the road", "bars: 90 %; hollow: flagged")
+    return figure
+
+
+def _histories(data: xr.Dataset, stations: tuple[str, ...]) -> Figure:
+    """Deflections over time of a drop, every sensor measured and fitted, and what each misses."""
+    good = np.flatnonzero(data["basin_status"].to_numpy() != _REFUSED)
+    at = data.isel(basin=_chosen(data, good, stations)[0])
+    figure = new_figure(10.2, 4.6)
+    left, right = figure.subplots(1, 2)
+    time, sensors = 1e3 * data["history_time"].to_numpy(), data["sensor"].to_numpy()
+    for number, sensor in enumerate(sensors):
+        color = CASES[number % len(CASES)]
+        measured, fitted = (
+            1e6 * at[f"{kind}_history"].isel(sensor=number).to_numpy() for kind in ("measured", "fitted")
+        )
+        left.plot(time, measured, "o", ms=3, color=color, label=f"{sensor:g} m")
+        left.plot(time, fitted, color=color, lw=1.2)
+        right.plot(time, fitted - measured, color=color, lw=1.2)
+    left.set_ylim(left.get_ylim()[::-1])
+    left.legend(fontsize=7.5, ncols=2)
+    for axes, value in ((left, "deflection, down (µm)"), (right, "fitted less measured (µm)")):
+        axes.set_xlabel("time (ms)")
+        axes.set_ylabel(value)
+        open_axes(axes)
+    headline(left, f"Drop {plain(str(at['station'].item()))}", "dots: measured; lines: fitted, without inertia")
+    headline(right, "Misfit over time", "what comes late is inertia")
     return figure
 
 

@@ -14,6 +14,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins, Measured
+from treadload.roads.drop_histories import DropHistories
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.parts import Progress, solve_in_parts
 from treadload.roads.solution import Backcalculation, solution
@@ -22,7 +23,7 @@ from treadload.roads.unknowns import STIFF_LAYER, Unknowns, layer_names, modulus
 
 
 def backcalculate(
-    basins: Basins | MovingBasins,
+    basins: Basins | MovingBasins | DropHistories,
     structure: Pavement,
     *,
     fixed: Collection[str] = (),
@@ -40,8 +41,8 @@ def backcalculate(
     basins: drops of a falling weight, `Basins`, or slopes ahead of rolling wheels, `MovingBasins`; `read_basins`
     reads both; a thickness that they give for a layer is taken in place of the structure's. structure: layers with
     their Poisson's ratios, thicknesses and bonds. Its moduli are those of the fixed layers and the centres of priors;
-    no start is needed. A layer of a mix is corrected for temperature. Under rolling wheels layers may be
-    viscoelastic: E*(ω) keeps its shape, and |E*| at 10 Hz and the basin's temperature is sought. fixed: names of
+    no start is needed. A layer of a mix is corrected for temperature. Under rolling wheels and over time layers may
+    be viscoelastic: E*(ω) keeps its shape, and |E*| at 10 Hz and the basin's temperature is sought. fixed: names of
     layers whose modulus is known. bounds: by name, (low, high), Pa or texts; 1 MPa to 100 GPa if left out. priors: by
     name, a coefficient of variation about the structure's modulus, or (modulus, it): lognormal. stiff_layer: depth of
     the top of a rigid layer below the surface, m or text, 10 m if left out; two depths to seek it between them; None
@@ -56,14 +57,22 @@ def backcalculate(
     `kernels.layers.tracks`; Marquardt (1963) for the search.
     """
     began = time.perf_counter()
-    if not isinstance(basins, Basins | MovingBasins):
+    if not isinstance(basins, Basins | MovingBasins | DropHistories):
         raise InputError(
-            f"basins must be Basins or MovingBasins, got {type(basins).__name__}; read_basins reads a file"
+            f"basins must be Basins, MovingBasins or DropHistories, got {type(basins).__name__}; read_basins reads "
+            "a file"
         )
     moving = isinstance(basins, MovingBasins)
     if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1:
         raise InputError(f"jobs must be a whole number of processes from 1, got {jobs!r}")
-    unknowns = pose(structure, fixed=fixed, bounds=bounds, priors=priors, stiff_layer=stiff_layer, memory=moving)
+    unknowns = pose(
+        structure,
+        fixed=fixed,
+        bounds=bounds,
+        priors=priors,
+        stiff_layer=stiff_layer,
+        memory=not isinstance(basins, Basins),
+    )
     names = layer_names(unknowns.road)
     stray = next((name for name in basins.thickness if name not in names[:-1]), None)
     if stray is not None:

@@ -44,6 +44,14 @@ class Measured(Protocol):
         """What is fitted (n, r)."""
 
     @property
+    def scales(self) -> Array:
+        """What the misfit of each reading is over (n, r)."""
+
+    @property
+    def error_sizes(self) -> Array:
+        """What relative errors of the readings are of (n, r)."""
+
+    @property
     def usual(self) -> float:
         """What most rows show for each newton; NaN without any."""
 
@@ -151,6 +159,16 @@ class Basins:
     @property
     def readings(self) -> Array:
         """What is fitted (n, s)."""
+        return self.deflection
+
+    @property
+    def scales(self) -> Array:
+        """What the misfit of each reading is over (n, s)."""
+        return self.deflection
+
+    @property
+    def error_sizes(self) -> Array:
+        """What relative errors of the readings are of (n, s)."""
         return self.deflection
 
     @property

@@ -24,12 +24,13 @@ _SPELT = {
     "um": "µm",
     "C": "degC",
     "°C": "degC",
+    "lb": "lbf",
     "mil": "0.0254 mm",
     "mils": "0.0254 mm",
     "micron": "µm",
     "in": "inch",
 }
-_USUAL = {"N": "kN", "m": "mm", "m/s": "km/h", "": "µm/m"}
+_USUAL = {"N": "kN", "m": "mm", "m/s": "km/h", "s": "ms", "": "µm/m"}
 _FAHRENHEIT = ("°F", "F", "degF")
 
 

@@ -76,7 +76,7 @@ class BasinModel:
         if self.seeks_depth:
             columns = columns.with_thickness(len(self.present) - 1, np.exp(x[..., -1]) - self.above[:, None])
         kernel, top = columns.kernel(shear)
-        return self.plate.settlement(kernel, top) * self.load[:, None, None]
+        return np.asarray(self.plate.settlement(kernel, top) * self.load[:, None, None])
 
     def with_slopes(self, x: Array) -> tuple[Array, Array]:
         """Deflection (n, v, s), m, and its slopes over x (n, v, s, p)."""

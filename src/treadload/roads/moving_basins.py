@@ -162,6 +162,19 @@ class MovingBasins:
         return self.slope
 
     @property
+    def scales(self) -> Array:
+        """What misfits are over (n, s): the size of all slopes of a place, which pass through zero."""
+        size = np.sqrt(
+            np.nanmean(np.where(np.isfinite(self.slope).any(axis=1, keepdims=True), self.slope, 1.0) ** 2, axis=1)
+        )
+        return np.repeat(size[:, None], len(self.offsets), axis=1)
+
+    @property
+    def error_sizes(self) -> Array:
+        """What relative errors of the readings are of (n, s)."""
+        return self.slope
+
+    @property
     def numbers(self) -> tuple[Array, ...]:
         """Arrays that the answer depends on."""
         warmth = np.zeros(0) if self.temperature is None else self.temperature

@@ -19,6 +19,8 @@ from treadload.kernels.arrays import Array, BoolArray, IntArray
 
 # Structures that a search may begin with, and how many begin for each drop.
 _LIBRARY, _STARTS = 256, 5
+# Readings below this part of the largest do not choose a start.
+_FAINT = 1e-3
 # Of the library: no further than this, Pa, whatever the bounds allow.
 _SOFT, _STIFF = 1e7, 4e10
 # Largest step of ln E. Steps below _SMALL end a search, so does damping beyond _STUCK; squares below _ZERO fit
@@ -170,8 +172,10 @@ def _starts(model: Model, target: Target) -> Array:
         # Structures of extreme contrast leave nothing of a far deflection but round-off.
         values = np.log(np.maximum(single.deflection(library[None])[0] / single.load[0], 1e-300))
         for part in np.array_split(drops, max(1, len(drops) // 64)):
-            with np.errstate(invalid="ignore"):
-                measured = np.log(target.deflection[part] / model.load[part, None])
+            readings = target.deflection[part]
+            # Starts are judged by ratios: by readings that have some size.
+            small = ~(readings > _FAINT * np.nanmax(readings, axis=1, keepdims=True))
+            measured = np.log(np.where(small, np.nan, readings) / model.load[part, None])
             chosen[part] = _best(library, values, measured, target, count if scaled else 0)
     return chosen
 

@@ -20,6 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins, Measured
+from treadload.roads.drop_histories import DropHistories
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.scatter import scatter_of
 from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
@@ -64,8 +65,10 @@ class Backcalculation(BaseResult, group="backcalculation"):
         maybe={
             "measured_deflection fitted_deflection measured_slope fitted_slope": "basin sensor",
             "basin_speed": "basin",
+            "measured_history fitted_history": "basin sensor history_time",
         },
-        with_it={"measured_deflection": "fitted_deflection", "measured_slope": "fitted_slope"},
+        with_it={"measured_deflection": "fitted_deflection", "measured_slope": "fitted_slope",
+            "measured_history": "fitted_history"},
         labels={
             "station": "basin", "section": "basin", "reason": "basin", "undecided": "basin",
             "layer_name": "layer_name",
@@ -211,7 +214,7 @@ def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:
 
 
 def solution(
-    basins: Basins | MovingBasins,
+    basins: Basins | MovingBasins | DropHistories,
     unknowns: Unknowns,
     error: SensorError,
     fits: Fits,
@@ -239,6 +242,7 @@ def solution(
     depth = thickness.sum(axis=1)
     depth_deviation = fits.deviation[:, -1] * depth if unknowns.seeks_depth else np.full(count, math.nan)
     nothing = np.full(count, math.nan)
+    position = getattr(basins, "position", None)
     over = ("basin", "layer_name")
     dataset = variables.dataset(
         {
@@ -258,20 +262,21 @@ def solution(
             "basin_freedom": (("basin",), fits.freedom),
             "basin_status": (("basin",), fits.status),
             "plate_load": (("basin",), basins.load),
-            "drop_position": (("basin",), nothing if basins.position is None else basins.position),
+            "drop_position": (("basin",), nothing if position is None else position),
             "asphalt_temperature": (("basin",), nothing if basins.temperature is None else basins.temperature),
             "stiff_depth": (("basin",), np.where(np.isfinite(depth), depth, math.nan)),
             "stiff_depth_deviation": (("basin",), depth_deviation),
         },
         {
             "station": ("basin", list(basins.station)),
-            "section": ("basin", list(basins.section) or [""] * count),
+            "section": ("basin", list(getattr(basins, "section", ())) or [""] * count),
             "reason": ("basin", [str(text) for text in fits.reason]),
             "undecided": ("basin", [str(text) for text in fits.undecided]),
             "layer_name": list(names),
             "unknown": list(unknowns.names),
             "other": list(unknowns.names),
             "sensor": basins.offsets,
+            **({"history_time": basins.time[basins.fitted_times]} if isinstance(basins, DropHistories) else {}),
         },
         **_loading(basins),
         sensor_error=f"{error}, as given" if error.stated else f"{error} by default; their size from each misfit",
@@ -282,18 +287,25 @@ def solution(
     return Backcalculation(dataset, road, dict(stats), _warnings(basins, unknowns, dataset))
 
 
-def _readings(basins: Basins | MovingBasins, fits: Fits) -> dict[str, tuple[tuple[str, ...], Array]]:
-    over = ("basin", "sensor")
+def _readings(basins: Basins | MovingBasins | DropHistories, fits: Fits) -> dict[str, tuple[tuple[str, ...], Array]]:
+    over: tuple[str, ...] = ("basin", "sensor")
     if isinstance(basins, MovingBasins):
         return {
             "measured_slope": (over, basins.slope),
             "fitted_slope": (over, fits.deflection),
             "basin_speed": (("basin",), basins.speed),
         }
+    if isinstance(basins, DropHistories):
+        shape = len(basins), len(basins.offsets), len(basins.fitted_times)
+        over = ("basin", "sensor", "history_time")
+        return {
+            "measured_history": (over, basins.readings.reshape(shape)),
+            "fitted_history": (over, fits.deflection.reshape(shape)),
+        }
     return {"measured_deflection": (over, basins.deflection), "fitted_deflection": (over, fits.deflection)}
 
 
-def _loading(basins: Basins | MovingBasins) -> dict[str, float | str]:
+def _loading(basins: Basins | MovingBasins | DropHistories) -> dict[str, float | str]:
     if isinstance(basins, MovingBasins):
         return {"plate": "wheels"}
     return {"plate_radius": basins.plate_radius, "plate": basins.plate}
@@ -308,7 +320,7 @@ def _thickness(basins: Measured, unknowns: Unknowns, names: tuple[str, ...], fit
     return table
 
 
-def _warnings(basins: Basins | MovingBasins, unknowns: Unknowns, data: xr.Dataset) -> tuple[str, ...]:
+def _warnings(basins: Basins | MovingBasins | DropHistories, unknowns: Unknowns, data: xr.Dataset) -> tuple[str, ...]:
     texts = list(basins.warnings)
     status = data["basin_status"].to_numpy()
     good = status != REFUSED

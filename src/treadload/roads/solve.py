@@ -11,6 +11,8 @@ import numpy as np
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, IntArray
 from treadload.roads.basins import Basins, Measured
+from treadload.roads.drop_histories import DropHistories
+from treadload.roads.history_model import history_models
 from treadload.roads.model import models, thicknesses
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.moving_model import moving_models
@@ -54,6 +56,7 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
     table = thicknesses(basins, unknowns, names)
     reasons = _refusals(basins, unknowns, names, table, usual)
     flags = basins.flags()
+    scales, error_sizes = basins.scales, basins.error_sizes
     fits = _empty(count, p, sensors)
     for number, reason in enumerate(reasons):
         if reason:
@@ -69,12 +72,18 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
         chosen = list(model.chosen)
         measured = basins.readings[model.drops]
         target = Target(
-            measured, error.at(measured), unknowns.low[chosen], unknowns.high[chosen], centre[chosen], width[chosen]
+            measured,
+            error.at(error_sizes[model.drops]),
+            unknowns.low[chosen],
+            unknowns.high[chosen],
+            centre[chosen],
+            width[chosen],
         )
         fitted = fit(model, target)
         sought = [unknowns.names[k] for k in chosen]
         for row, drop in enumerate(model.drops):
-            sure = certainty(sought, measured[row], fitted, row, error, width[chosen])
+            sizes = scales[drop], error_sizes[drop]
+            sure = certainty(sought, measured[row], sizes, fitted, row, error, width[chosen])
             caveats = [flags[drop]] * bool(flags[drop]) + list(sure.caveats)
             caveats += _at_bounds(unknowns, chosen, fitted.at_bound[row])
             if not fitted.converged[row]:
@@ -96,6 +105,8 @@ def _models(basins: Measured, unknowns: Unknowns, table: Array, drops: IntArray)
         return ()
     if isinstance(basins, MovingBasins):
         return moving_models(basins, unknowns, table, drops)
+    if isinstance(basins, DropHistories):
+        return history_models(basins, unknowns, table, drops)
     assert isinstance(basins, Basins)
     return models(basins, unknowns, table, drops)
 

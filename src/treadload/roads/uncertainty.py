@@ -103,20 +103,24 @@ class Certainty:
 
 
 def certainty(
-    names: Sequence[str], measured: Array, fits: Fitted, row: int, error: SensorError, widths: Array
+    names: Sequence[str],
+    measured: Array,
+    sizes: tuple[Array, Array],
+    fits: Fitted,
+    row: int,
+    error: SensorError,
+    widths: Array,
 ) -> Certainty:
-    """Of one drop. measured: (s,), m. fits: fits, of which this one stands in a row. widths: of priors (p,), inf for
-    none.
+    """Of one drop. measured: (r,), readings. sizes: what misfits are over, and what relative errors are of. fits: fits,
+    of which this one stands in a row. widths: of priors (p,), inf for none.
 
     With a prior the errors count as stated: a prior has a size of its own, that of the misfit does not change it.
     """
     fitted, slopes, at_bound = fits.deflection[row], fits.slopes[row], fits.at_bound[row]
     there = np.isfinite(measured)
-    sigma = error.at(measured[there])
+    sigma = error.at(sizes[1][there])
     apart = (fitted[there] - measured[there]) / sigma
-    # Slopes pass through zero: theirs is over the size of them all.
-    size = np.sqrt(np.mean(measured[there] ** 2)) if error.slopes else measured[there]
-    misfit = float(np.sqrt(np.mean(((fitted[there] - measured[there]) / size) ** 2)))
+    misfit = float(np.sqrt(np.mean(((fitted[there] - measured[there]) / sizes[0][there]) ** 2)))
     free = at_bound == 0
     informed = np.isfinite(widths)
     freedom = int(there.sum()) - int((free & ~informed).sum())

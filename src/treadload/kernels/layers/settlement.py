@@ -84,7 +84,7 @@ class Plate:
             weights.append(np.stack([(turned * _transform(order, k * radius)) @ interpolate for order in orders]))
         return cls(np.concatenate(nodes), np.concatenate(weights, axis=-1), direct, len(inside))
 
-    def settlement(self, kernel: Array, top: Array) -> Array:
+    def settlement(self, kernel: Scalars, top: Scalars) -> Scalars:
         """Settlement (..., s) of the sensors under 1 N, m. kernel: g (..., nk), 1/Pa. top: its limit (...)."""
         loads = [
             (top[..., None] * direct + (kernel - top[..., None]) @ weights.T) / (2 * math.pi)
@@ -94,12 +94,12 @@ class Plate:
             return np.asarray(loads[0])
         # Shares of the pressures for which all points inside settle alike, and carry 1 N together.
         each, count = np.stack(loads, axis=-1), self.inside
-        system = np.zeros((*each.shape[:-2], count + 1, count + 1))
+        system = np.zeros((*each.shape[:-2], count + 1, count + 1), each.dtype)
         size = np.abs(each[..., :count, :]).max(axis=(-2, -1))
         system[..., :count, :count] = each[..., :count, :] / size[..., None, None]
         system[..., :count, count] = -1.0
         system[..., count, :count] = 1.0
-        wanted = np.zeros((*system.shape[:-1], 1))
+        wanted = np.zeros((*system.shape[:-1], 1), each.dtype)
         wanted[..., count, 0] = 1.0
         shares = np.linalg.solve(system, wanted)[..., :count, :]
         return np.asarray((each[..., count:, :] @ shares)[..., 0])
