@@ -111,8 +111,8 @@ def certainty(
     error: SensorError,
     widths: Array,
 ) -> Certainty:
-    """Of one drop. measured: (r,), readings. sizes: what misfits are over, and what relative errors are of. fits: fits,
-    of which this one stands in a row. widths: of priors (p,), inf for none.
+    """Of one drop. measured: (r,), readings. sizes: what misfits are over, and what relative errors are of. fits: of
+    which this one stands in a row. widths: of priors (p,), inf for none.
 
     With a prior the errors count as stated: a prior has a size of its own, that of the misfit does not change it.
     """
