@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
+LEVEL = 0.9
+"""Level of the intervals of fitted numbers."""
 UNDECIDED = 0.5
 """Data that leave a number, or numbers together, uncertain by this part of their size do not decide them."""
 # Part in a direction above which a number belongs to it.

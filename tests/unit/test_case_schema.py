@@ -130,7 +130,7 @@ def test_the_first_case_is_one_and_names_every_key_of_its_tables(kind):
         rest = {"tire", "pavement", "rolling", "footprint", "response", "damage", "layers", "traffic", "climate"}
         rest |= {"criteria", "classes", "calibration", "data", "passes", "aggregates", "reliability", "growth"}
         rest |= {"texture", "crossing", "uniform", "pitch", "remedies", "field_shift"}
-        rest |= {"indentation", "drum", "rutting", "modulus_correlation"}
+        rest |= {"indentation", "drum", "rutting", "modulus_correlation", "from", "overlay"}
         if not (kind != "run" and "[tire]" in words):
             assert missing <= rest, (words, missing)
 
@@ -152,3 +152,15 @@ def test_a_schema_has_every_default_and_warns_of_none(kind, recwarn):
 def test_an_unknown_kind_is_told():
     with pytest.raises(tl.InputError, match="no kind of case 'live'; did you mean 'life'"):
         json_schema("live")
+
+
+def test_a_road_may_come_from_a_backcalculation():
+    schema = json_schema("life")
+    road = next(
+        table for table in tables(schema) if "structure" in table["properties"] and "from" in table["properties"]
+    )
+    checks = jsonschema.Draft202012Validator({**road, "$defs": schema["$defs"]})
+    assert checks.is_valid({"from": "moduli.nc#km 1.2"})
+    assert checks.is_valid({"from": "moduli.nc#km 1.2", "overlay": {"mix": "EB-BBSG3", "thickness": "60 mm"}})
+    assert not checks.is_valid({"from": "moduli.nc"})
+    assert not checks.is_valid({"from": "moduli.nc#km 1.2", "structure": "6 BBSG3 / PF3"})

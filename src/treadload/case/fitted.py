@@ -11,7 +11,7 @@ import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.files import read_tree
 
-FROM = "from"
+FROM, OVERLAY = "from", "overlay"
 _GROUP = "backcalculation"
 _REFUSED = 2
 
@@ -22,6 +22,7 @@ def with_fitted_road(table: Mapping[str, object], folder: Path) -> _Tables:
     """The tables of a case with the layers that a backcalculation found; as they are where it names none.
 
     `[pavement] from`: a result file and a station, "moduli.nc#km 1.2"; the first drop of the station is taken.
+    `[pavement] overlay`: a layer as in `[[pavement.layers]]`, laid on top and named "overlay" unless it has a name.
     `[reliability]` without moduli takes their scatter and correlation. folder: that the file is looked for in.
     Raises InputError.
     """
@@ -36,8 +37,17 @@ def with_fitted_road(table: Mapping[str, object], folder: Path) -> _Tables:
         raise InputError(f'pavement.from must be a file and a station, "moduli.nc#km 1.2", got {source!r}')
     file, _, station = source.rpartition("#")
     drop = _drop(folder / file, station.strip())
-    rest = {key: value for key, value in pavement.items() if key != FROM}
-    tables = {**table, "pavement": {**rest, **_layers(drop)}}
+    rest = {key: value for key, value in pavement.items() if key not in (FROM, OVERLAY)}
+    fitted = _layers(drop)
+    if OVERLAY in pavement:
+        overlay = pavement[OVERLAY]
+        if not isinstance(overlay, Mapping):
+            raise InputError(
+                f"pavement.overlay must be a table of a layer, with its material and thickness, got {overlay!r}"
+            )
+        assert isinstance(fitted["layers"], list)
+        fitted["layers"] = [{"name": OVERLAY, **overlay}, *fitted["layers"]]
+    tables = {**table, "pavement": {**rest, **fitted}}
     reliability = table.get("reliability")
     if isinstance(reliability, Mapping) and not {"moduli", "modulus_correlation"} & set(reliability):
         tables["reliability"] = {**reliability, **_scatter(drop)}

@@ -9,6 +9,7 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from treadload import catalogue
+from treadload.case.fitted import FROM, OVERLAY
 from treadload.case.model import Case
 from treadload.case.step import Source, step_class, step_classes
 from treadload.case.tire import EXAMPLE
@@ -104,9 +105,26 @@ def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[s
     for table, key, names in _CATALOGUED:
         if table in defined:
             defined[table]["properties"][key]["examples"] = list(names)
+    if "PavementPart" in defined:
+        _with_fitted(defined["PavementPart"])
     first = (Case.__doc__ or "").strip().splitlines()[0]
     whole = {**root, "title": f"A case of `treadload {name}`", "description": first, "$defs": defined}
     return {"$schema": _DIALECT, **_plain(whole)}
+
+
+def _with_fitted(road: dict[str, Any]) -> None:
+    """Let a road come from a backcalculation as well, in place of what a case else needs of it."""
+    road["properties"][FROM] = {
+        "type": "string",
+        "pattern": "#",
+        "description": "A result of `treadload backcalculate` and a station of it, whose fitted layers are the road.",
+        "examples": ["moduli.nc#km 1.2"],
+    }
+    road["properties"][OVERLAY] = {
+        "$ref": f"{REFERENCE}LayerPart",
+        "description": "A layer laid on top of such a road.",
+    }
+    road["oneOf"] = [*road.get("oneOf", []), {"required": [FROM]}]
 
 
 def _wanted(root: dict[str, object], defined: dict[str, object]) -> Iterator[str]:

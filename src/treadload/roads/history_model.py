@@ -17,6 +17,7 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.fft import rfft
 from treadload.roads.drop_histories import DropHistories
 from treadload.roads.model import BasinModel, models, slopes_over
 from treadload.roads.unknowns import Unknowns, has_memory, modulus_of, relative_modulus
@@ -147,16 +148,16 @@ def _weights(time: Array, force: Array, at: IntArray) -> ComplexArray:
     """Of the transfer function at the frequencies (f,) in the deflection at some of the times (nt, f), N."""
     step = float(time[1] - time[0])
     count = 2 ** math.ceil(math.log2(len(time) + _REST / step))
-    spectrum = np.fft.rfft(force, count)
-    frequency = np.fft.rfftfreq(count, step)
+    spectrum = np.asarray(rfft(force, count))
+    steady = np.arange(len(spectrum)) / (count * step)
     share = np.full(len(spectrum), 2.0 / count)
     share[0] = 1.0 / count
     out = np.zeros((len(at), len(_frequencies())), complex)
     series = np.linalg.inv(chebvander(chebpts1(_POINTS), _POINTS - 1))
     edges = _edges()
     # What is faster than the last octave goes with its end.
-    frequency = np.minimum(frequency, edges[-1] * (1 - 1e-12))
-    turns = 2 * math.pi * np.fft.rfftfreq(count, step)
+    frequency = np.minimum(steady, edges[-1] * (1 - 1e-12))
+    turns = 2 * math.pi * steady
     for panel, (low, high) in enumerate(itertools.pairwise(edges)):
         there = np.flatnonzero((frequency >= low) & (frequency < high))
         if not len(there):

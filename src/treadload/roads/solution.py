@@ -15,7 +15,7 @@ from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError, nearest
-from treadload.identifiability import quantile
+from treadload.identifiability import LEVEL, quantile
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, TemperatureDependent
 from treadload.pavement import Pavement
@@ -29,8 +29,6 @@ from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, modulus_of, p
 from treadload.rows import Row, row
 from treadload.variables import modulus_in_words
 
-# Level of the intervals that rows and figures show.
-LEVEL = 0.9
 # Loads that differ by less than this part belong to one height of drop.
 _SAME_LOAD = 0.12
 # Moduli that change by more than this part from the least load to the largest are named.
@@ -110,9 +108,11 @@ class Backcalculation(BaseResult, group="backcalculation"):
         freedom = float(data["basin_freedom"])
         # Without a reading to spare the errors are those that weigh the sensors.
         stated = self._stated(float(data["error_scatter"])) or not freedom > 0
-        reach = quantile(level, freedom, stated=stated)
-        part = math.exp(reach * float(data["modulus_deviation"]))
-        return float(data["fitted_modulus"]) / part, float(data["fitted_modulus"]) * part
+        # Both ends move away from the fit as those of a normal, or of Student, do.
+        part = quantile(level, freedom, stated=stated) / quantile(LEVEL, freedom, stated=stated)
+        middle = float(data["fitted_modulus"])
+        low, high = (middle * (float(data[f"modulus_{end}"]) / middle) ** part for end in ("low", "high"))
+        return low, high
 
     def road(self, drop: int | str) -> Pavement:
         """The road at a drop: its fitted moduli, thicknesses, and the stiff layer; elastic, a viscoelastic layer with
@@ -226,19 +226,17 @@ def solution(
     road, names = unknowns.road, layer_names(unknowns.road)
     count, size = len(basins), len(names)
     good = fits.status != REFUSED
-    moduli, deviation = np.full((2, count, size), math.nan)
+    moduli, deviation, low, high = np.full((4, count, size), math.nan)
     for number in range(size):
         if number in unknowns.moduli:
             place = unknowns.moduli.index(number)
             moduli[:, number], deviation[:, number] = np.exp(fits.x[:, place]), fits.deviation[:, place]
+            with np.errstate(over="ignore"):
+                low[:, number], high[:, number] = np.exp(fits.low[:, place]), np.exp(fits.high[:, place])
         else:
             moduli[good, number] = modulus_of(road.layers[number])
     thickness = _thickness(basins, unknowns, names, fits)
     moduli[~(thickness > 0)] = math.nan
-    stated = error.stated | (fits.scatter == 1.0)
-    reach = np.array([quantile(LEVEL, f, stated=s or not f > 0) for f, s in zip(fits.freedom, stated, strict=True)])
-    with np.errstate(over="ignore"):
-        part = np.exp(reach[:, None] * deviation)
     depth = thickness.sum(axis=1)
     depth_deviation = fits.deviation[:, -1] * depth if unknowns.seeks_depth else np.full(count, math.nan)
     nothing = np.full(count, math.nan)
@@ -247,8 +245,8 @@ def solution(
     dataset = variables.dataset(
         {
             "fitted_modulus": (over, moduli),
-            "modulus_low": (over, moduli / part),
-            "modulus_high": (over, moduli * part),
+            "modulus_low": (over, low),
+            "modulus_high": (over, high),
             "modulus_deviation": (over, deviation),
             "modulus_at_reference": (over, moduli * factors),
             "layer_thickness": (over, thickness),

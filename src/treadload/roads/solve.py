@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload.errors import InputError
+from treadload.identifiability import LEVEL, quantile
 from treadload.kernels.arrays import Array, IntArray
 from treadload.roads.basins import Basins, Measured
 from treadload.roads.drop_histories import DropHistories
@@ -16,6 +17,7 @@ from treadload.roads.history_model import history_models
 from treadload.roads.model import models, thicknesses
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.moving_model import moving_models
+from treadload.roads.profiles import intervals
 from treadload.roads.search import Model, Target, fit
 from treadload.roads.uncertainty import SensorError, certainty
 from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, relative_modulus
@@ -28,13 +30,15 @@ FITTED, FLAGGED, REFUSED = 0, 1, 2
 class Fits:
     """Of drops, a row each; NaN where one was refused or has no such layer.
 
-    x: logarithms of the unknowns (n, p). deviation: of them (n, p). at_bound: (n, p), -1, 0, 1. correlation:
-    (n, p, p).
-    deflection: fitted (n, s), m. misfit, scatter, freedom: (n,). status: (n,). reason, undecided: texts (n,).
+    x: logarithms of the unknowns (n, p). deviation: of them (n, p). low, high: ends of their intervals of the level
+    of `identifiability.LEVEL` (n, p). at_bound: (n, p), -1, 0, 1. correlation: (n, p, p). deflection: fitted (n, s),
+    m. misfit, scatter, freedom: (n,). status: (n,). reason, undecided: texts (n,).
     """
 
     x: Array
     deviation: Array
+    low: Array
+    high: Array
     at_bound: Array
     correlation: Array
     deflection: Array
@@ -81,9 +85,14 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
         )
         fitted = fit(model, target)
         sought = [unknowns.names[k] for k in chosen]
+        # Of the errors as they weigh: what the intervals of the drops are made of.
+        reach, linear = np.full(len(model.drops), math.nan), np.full(fitted.x.shape, math.nan)
         for row, drop in enumerate(model.drops):
             sizes = scales[drop], error_sizes[drop]
             sure = certainty(sought, measured[row], sizes, fitted, row, error, width[chosen])
+            stated = error.stated or sure.scatter == 1.0 or not sure.freedom > 0
+            reach[row] = quantile(LEVEL, sure.freedom, stated=stated) * sure.scatter
+            linear[row] = sure.deviations / sure.scatter
             caveats = [flags[drop]] * bool(flags[drop]) + list(sure.caveats)
             caveats += _at_bounds(unknowns, chosen, fitted.at_bound[row])
             if not fitted.converged[row]:
@@ -97,6 +106,8 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
             fits.status[drop] = FLAGGED if caveats else FITTED
             fits.reason[drop] = "; ".join(caveats)
             fits.undecided[drop] = "; ".join(sure.undecided)
+        ends = intervals(model, target, fitted, linear, reach)
+        fits.low[np.ix_(model.drops, chosen)], fits.high[np.ix_(model.drops, chosen)] = ends
     return fits
 
 
@@ -128,7 +139,18 @@ def _empty(count: int, p: int, sensors: int) -> Fits:
 
     texts = [np.full(count, "", dtype=object) for _ in range(2)]
     return Fits(
-        nan(p), nan(p), np.zeros((count, p)), nan(p, p), nan(sensors), nan(), nan(), nan(), np.zeros(count), *texts
+        nan(p),
+        nan(p),
+        nan(p),
+        nan(p),
+        np.zeros((count, p)),
+        nan(p, p),
+        nan(sensors),
+        nan(),
+        nan(),
+        nan(),
+        np.zeros(count),
+        *texts,
     )
 
 
