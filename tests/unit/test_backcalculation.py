@@ -400,9 +400,7 @@ def test_a_design_case_takes_its_road_and_scatter_from_a_station(tmp_path):
 @pytest.mark.slow
 @pytest.mark.parametrize("noise", [0.01, 0.02])
 def test_intervals_of_thin_asphalt_on_a_treated_base_cover(noise):
-    """Strongly non-linear: linear intervals held 74 to 80 % of the moduli, those by the profile hold 90 %, as binomial
-    scatter of ± 2 % of 200 draws allows.
-    """
+    """Linear intervals held 74 to 80 % of the moduli, those by the profile 90 %; 200 draws scatter by ± 2 %."""
     wanted, thickness, poisson = (8e9, 1.2e10, 1e8), (0.06, 0.2), (0.35, 0.25, 0.4)
     clean = bowl(wanted, thickness, poisson)
     layers = [

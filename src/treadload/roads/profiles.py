@@ -74,7 +74,7 @@ def profile(model: Model, target: Target, x: Array, deviation: Array, reach: Arr
 
     Arguments as those of `bent`; reach in the errors as they weigh.
     """
-    n, p = x.shape
+    p = x.shape[1]
     base = _cost(model, target, x[:, None])
     wanted = reach[:, None]
     holds = np.concatenate([np.arange(p), np.arange(p)])

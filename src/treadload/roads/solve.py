@@ -107,7 +107,8 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
             fits.reason[drop] = "; ".join(caveats)
             fits.undecided[drop] = "; ".join(sure.undecided)
         ends = intervals(model, target, fitted, linear, reach)
-        fits.low[np.ix_(model.drops, chosen)], fits.high[np.ix_(model.drops, chosen)] = ends
+        for row, drop in enumerate(model.drops):
+            fits.low[drop, chosen], fits.high[drop, chosen] = ends[0][row], ends[1][row]
     return fits
 
 
