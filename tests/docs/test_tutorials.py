@@ -47,6 +47,17 @@ WRITES = {
     },
     "my_own_scan": {"my_tire.obj", "tread.nc", "tread.png", "pressure.png", "two_tires.png", "scan.nc", "scan.html"},
     "my_own_road": {"section.png", "road.toml", "road.nc"},
+    "an_existing_road": {
+        "bowls.csv",
+        "structure.toml",
+        "moduli.nc",
+        "basins.png",
+        "moduli.png",
+        "rest.toml",
+        "rest.nc",
+        "overlay.toml",
+        "overlay_design.nc",
+    },
     "my_own_traffic": {"life.toml", "mine.nc", "mine.html", "years.png", "shares.png", "more.nc"},
 }
 
