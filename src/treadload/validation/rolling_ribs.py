@@ -13,6 +13,7 @@ from treadload.contact.bodies import Influence, Pair
 from treadload.contact.bodies.body import Rows
 from treadload.contact.bodies.choose import surface_of
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.fft import rfft
 from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
 from treadload.tire import Belt, Tire, TreadProfile
@@ -96,7 +97,7 @@ def lost_in_rubber(contact: Contact) -> float:
     rows = Rows(data.sizes["y"], dy, float(data.y[0]))
     length = 2 * round(0.5 * _PERIOD / dx)
     loads = np.stack([-data.traction_x.to_numpy(), -data.traction_y.to_numpy(), data.pressure.to_numpy()])
-    waves = np.fft.rfft(loads, n=length, axis=-1) * np.array([-1j, 1.0, -1.0])[:, None, None]
+    waves = rfft(loads, n=length, axis=-1) * np.array([-1j, 1.0, -1.0])[:, None, None]
     k = 2 * np.pi * np.arange(length // 2 + 1) / (length * dx)
     speed = float(contact.rolling.speed or 0.0)
     lagging = sum(f * k * speed * t / (1 + (k * speed * t) ** 2) for f, t in rubber.creep_terms)
