@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.citations import CITATIONS
+from treadload.citations import CITATIONS, REFERENCES
 from treadload.results.bibtex import bibtex
 
 meshio = pytest.importorskip("meshio")
@@ -205,12 +205,24 @@ def entries(text):
     return found
 
 
+def test_references_are_data_from_which_prose_and_bibtex_follow():
+    keys = [reference.key for reference in REFERENCES.values()]
+    assert len(set(keys)) == len(keys) == len(CITATIONS)
+    assert CITATIONS["convolution"] == (
+        "Liu, S., Wang, Q., Liu, G. (2000). A versatile method of discrete convolution and FFT (DC-FFT) for contact "
+        "analyses. Wear 243, 101-111."
+    )
+    assert CITATIONS["chain"].endswith("Using Semi-Analytical Model. doi:10.3390/ma14092117")
+    # As another program reads them: the same keys.
+    assert set(entries(bibtex(CITATIONS.values()))) == {*keys, "treadload"}
+
+
 def test_every_method_has_an_entry_of_bibtex():
     made = entries(bibtex(CITATIONS.values()))
     assert len(made) == len(CITATIONS) + 1
     for key, (kind, fields) in made.items():
         assert re.fullmatch(r"[a-z]+\d{4}b*|treadload", key), key
-        assert kind in ("article", "book", "misc", "software"), key
+        assert kind in ("article", "book", "inproceedings", "misc", "software"), key
         assert {"year"} <= set(fields), key
         assert "title" in fields, key
     kind, love = made["love1929"]

@@ -11,7 +11,7 @@ import xarray as xr
 
 from treadload._version import __version__
 from treadload.case import Case
-from treadload.citations import CITATIONS, references
+from treadload.citations import REFERENCES, references
 from treadload.results.schema import read_json
 
 # "Love, A. E. H. (1929). The stress produced ... Phil. Trans. R. Soc. A 228, 377-420."
@@ -19,11 +19,6 @@ _WHOLE = re.compile(r"(?P<who>.+?) \((?P<year>\d{4})\)\. (?P<title>.+?)(?:\. (?P
 _JOURNAL = re.compile(r"(?P<journal>.+?),? (?P<volume>\d+(?:-\d+)?), (?P<pages>[\w-]+)$")
 _PUBLISHED = re.compile(r"(?:.*\. )?(?P<publisher>[^.:]*?(?:Press|Kluwer|Holden-Day|Wiley|Springer)[^.:,]*)")
 _AUTHOR = re.compile(r"[^,]+, (?:[A-ZÀ-Ý]\.[ -]?)+")
-_CHAIN = {
-    "title": "Approach of Pavement Surface Layer Degradation Caused by Tire Contact Using Semi-Analytical Model",
-    "journal": "Materials", "volume": "14", "number": "9", "pages": "2117", "year": "2021",
-    "doi": "10.3390/ma14092117",
-}  # fmt: skip
 
 
 def bibtex(citations: Iterable[str]) -> str:
@@ -33,9 +28,15 @@ def bibtex(citations: Iterable[str]) -> str:
         "title": "{treadload: what a tire does to a road}", "author": "{The treadload developers}",
         "version": __version__, "year": "2026",
     })]  # fmt: skip
+    published = {reference.prose: reference for reference in REFERENCES.values()}
     for text in dict.fromkeys(citations):
-        kind, fields = _parsed(text)
-        key = _key(fields)
+        if text in published:
+            reference = published[text]
+            kind, key, fields = reference.kind, reference.key, {**reference.fields}
+            fields["title"] = f"{{{fields['title']}}}"
+        else:
+            kind, fields = _parsed(text)
+            key = _key(fields)
         while key in taken:
             key += "b"
         taken.add(key)
@@ -52,9 +53,7 @@ def citations_of(source: Case | xr.DataTree) -> list[str]:
 
 
 def _parsed(text: str) -> tuple[str, dict[str, str]]:
-    """Kind of entry and its fields; what cannot be told apart stands whole in a note."""
-    if text == CITATIONS["chain"]:
-        return "article", dict(_CHAIN)
+    """Kind and fields of a reference that a law brings as prose; what has no known form stands whole in a note."""
     match = _WHOLE.match(text)
     if match is None:
         return "misc", {"note": text}
