@@ -230,6 +230,12 @@ def _registry() -> Any:
     return registry
 
 
+# Of text in a schema, for ECMA: it begins with a number, and more than digits and marks follow where a unit must.
+# What is read, `quantity` decides.
+_BARE = r"^\s*[+\-\u2212]?(?:[0-9]|[.,][0-9])"
+_WITH_UNIT = _BARE + r".*[^\s0-9.,]"
+
+
 @dataclass(frozen=True)
 class Unit:
     """What a number is counted in, as an annotation: `Annotated[float, Unit("Pa")]`.
@@ -263,7 +269,8 @@ class Unit:
         bare = "°C" if self.si == "degC" else self.si
         words = f"A number in {bare}, or text such as {self.example}." if bare else f"A number, {self.example}."
         kind = {"x-kind": self.kind} if self.kind else {}
-        return {"type": ["number", "string"], "description": words, "x-unit": self.si, **kind}
+        pattern = _WITH_UNIT if self.si else _BARE
+        return {"type": ["number", "string"], "pattern": pattern, "description": words, "x-unit": self.si, **kind}
 
 
 _OF_KINDS = {

@@ -53,6 +53,7 @@ def writers() -> dict[str, Writer]:
     from treadload.cli.cases import init, schema
     from treadload.cli.exports import as_python, cite
     from treadload.results.discs import equivalent_discs
+    from treadload.results.elements import write_elements
     from treadload.results.exports import write_csv, write_excel, write_parquet
     from treadload.results.tractions import write_tractions
     from treadload.results.vtk import write_vtk
@@ -83,6 +84,7 @@ def writers() -> dict[str, Writer]:
         "cells": Writer("a.vts", lambda path: write_vtk(contact, path)),
         "points": Writer("a.vtr", lambda path: write_vtk(response, path)),
         "mesh": Writer("a.vtu", lambda path: write_vtk(contact, path)),
+        "elements": Writer("a.inp", lambda path: write_elements(contact, path)),
         "tractions": Writer("a.dat", lambda path: write_tractions(contact, path)),
         "discs": Writer("a.csv", discs.write_csv),
         "report": Writer("a.html", lambda path: tl.report(both, path), slow=True),

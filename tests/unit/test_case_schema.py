@@ -11,7 +11,9 @@ import pytest
 import treadload as tl
 from treadload.case import Case
 from treadload.case.schema import json_schema
+from treadload.errors import InputError
 from treadload.templates import first_case
+from treadload.units import Unit, quantity
 
 ROOT = Path(__file__).parents[2]
 KINDS = {"run": Case, "life": Case, "calibrate": Case}
@@ -46,6 +48,22 @@ def test_a_schema_is_one_of_its_draft_and_refers_to_what_it_defines(kind):
     # Nothing of the machinery, and no null, which TOML does not have.
     assert "treadload/" not in text
     assert "null" not in text
+
+
+def test_texts_of_quantities_have_a_pattern():
+    """An editor marks text that no reader takes; what the reader takes, the pattern does, too."""
+    pattern = re.compile(Unit("N").__get_pydantic_json_schema__(None, None)["pattern"])
+    assert pattern.pattern in json.dumps(json_schema("run")).encode().decode("unicode_escape")
+    for right in ("32.5 kN", "32,5 kN", "1 000 kN", "1.2e6 N", "-5 kN", ".5 kN", " 20kN"):
+        quantity(right, "N")
+        assert pattern.search(right), right
+    for wrong in ("kN", "", "about 20 kN", "20", "1 000", "-"):
+        with pytest.raises(InputError):
+            quantity(wrong, "N")
+        assert not pattern.search(wrong), wrong
+    share = re.compile(Unit("").__get_pydantic_json_schema__(None, None)["pattern"])
+    assert all(share.search(word) for word in ("0.7", "5 %", "120 microstrain"))
+    assert not share.search("high")
 
 
 @pytest.mark.parametrize("kind", KINDS)

@@ -4,6 +4,7 @@ import base64
 import csv
 import re
 import xml.etree.ElementTree as ET
+import zlib
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ import pytest
 import treadload as tl
 from treadload.citations import CITATIONS, REFERENCES
 from treadload.results.bibtex import bibtex
+from treadload.results.vtk import _packed
 
 meshio = pytest.importorskip("meshio")
 
@@ -25,17 +27,37 @@ def response(coarse_result):
     return coarse_result.response
 
 
+def unpacked(text):
+    """Blocks packed by zlib behind their head: how many, the size of each, that of the last, their packed sizes."""
+    blocks = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
+    end = -(-8 * (3 + blocks) // 3) * 4
+    head = np.frombuffer(base64.b64decode(text[:end]), "<u8")
+    body, start, parts = base64.b64decode(text[end:]), 0, []
+    for size in map(int, head[3:]):
+        parts.append(zlib.decompress(body[start : start + size]))
+        start += size
+    assert start == len(body)
+    assert all(len(part) == head[1] for part in parts[:-1])
+    assert len(parts[-1]) == (head[2] or head[1])
+    return b"".join(parts)
+
+
+def test_more_than_one_block_is_packed_as_its_head_says():
+    for size in (1, 2**20, 2**20 + 8, 3 * 2**20):
+        raw = np.random.default_rng(1).integers(0, 3, size, dtype=np.uint8).tobytes()
+        assert unpacked(_packed(raw)) == raw
+
+
 def parsed(path):
     """Type of the grid, its extent, and every array by its name, by the words of the format's makers."""
     root = ET.parse(path).getroot()
     assert root.attrib["byte_order"] == "LittleEndian"
     assert root.attrib["header_type"] == "UInt64"
+    assert root.attrib["compressor"] == "vtkZLibDataCompressor"
     arrays = {}
     for one in root.iter("DataArray"):
-        raw = base64.b64decode(one.text)
         kind = {"Float64": "<f8", "Int64": "<i8", "UInt8": "u1"}[one.attrib["type"]]
-        assert int.from_bytes(raw[:8], "little") == len(raw) - 8
-        values = np.frombuffer(raw[8:], kind)
+        values = np.frombuffer(unpacked(one.text), kind)
         parts = int(one.attrib.get("NumberOfComponents", 1))
         arrays[one.attrib["Name"]] = values.reshape(-1, parts) if parts > 1 else values
     return root, arrays

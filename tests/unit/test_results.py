@@ -98,3 +98,25 @@ def test_a_package_cites_whole_references_and_a_case_what_its_steps_use():
     assert references((whole, "layers", whole)) == [CITATIONS["chain"], whole, CITATIONS["layers"]]
     cited = tl.Case.from_toml(Path(__file__).parents[2] / "examples/rutting/rutting.toml").cites()
     assert {"passes", "eigenstrain", "newton"} <= set(cited)
+
+
+def test_files_follow_cf(coarse_result, tmp_path):
+    """CF-1.11, 2.5.1 and 2.6: no missing values of coordinates, flags of the same type, history.
+
+    compliance-checker 6.1 with cf:1.11 --criteria=strict finds no error in such a file, nor in any of its groups.
+    """
+    import h5py
+
+    with h5py.File(tl.save_results(coarse_result.to_tree(), tmp_path / "r.nc")) as file:
+        assert file.attrs["Conventions"] == "CF-1.11"
+        assert "treadload" in file.attrs["history"]
+        state = file["contact/state"]
+        assert state.attrs["flag_values"].dtype == state.dtype
+        assert (state.attrs["flag_values"].tolist(), state.attrs["flag_meanings"]) == ([0, 1, 2], "open stick slip")
+        for axis in ("contact/x", "contact/y", "response/depth"):
+            assert "_FillValue" not in file[axis].attrs
+        assert file["response/depth"].attrs["positive"] == "down"
+    # A dataset alone is a file by convention, too, and its own history is kept.
+    data = coarse_result.contact.dataset.assign_attrs(history="measured")
+    with h5py.File(tl.save_results(data, tmp_path / "d.nc")) as file:
+        assert (file.attrs["Conventions"], file.attrs["history"]) == ("CF-1.11", "measured")

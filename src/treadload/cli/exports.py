@@ -19,14 +19,14 @@ def export(
         Path,
         typer.Option(
             "--output", "-o",
-            help=".vts, .vtr or .vtu (ParaView), .dat (contact stresses for finite elements), .csv, .xlsx or "
-            ".parquet (tables).",
+            help=".vts, .vtr or .vtu (ParaView), .inp (loads for Abaqus and CalculiX), .dat (contact stresses of "
+            "cells), .csv, .xlsx or .parquet (tables).",
         ),
     ],
     part: Annotated[
         str, typer.Option(help="Of the results, by name; left out, the contact or the response that fits.")
     ] = "",
-    units: Annotated[str, typer.Option(help="Of a .dat file: SI (m, Pa) or mm (mm, MPa).")] = "SI",
+    units: Annotated[str, typer.Option(help="Of a .dat or .inp file: SI (m, Pa) or mm (mm, MPa).")] = "SI",
     discs: Annotated[
         int | None, typer.Option(help="Write so many equivalent discs of the contact, as .csv.", show_default=False)
     ] = None,
@@ -38,11 +38,12 @@ def export(
     from treadload.response import Response
     from treadload.results import open_results
     from treadload.results.discs import equivalent_discs
+    from treadload.results.elements import ELEMENTS, write_elements
     from treadload.results.exports import TABLES, write
     from treadload.results.tractions import TRACTIONS, write_tractions
     from treadload.results.vtk import VTK, write_vtk
 
-    suffix = check_suffix(output, {**TABLES, **VTK, **TRACTIONS} if discs is None else TABLE, "results")
+    suffix = check_suffix(output, {**TABLES, **VTK, **TRACTIONS, **ELEMENTS} if discs is None else TABLE, "results")
     opened = open_results(results)
 
     def chosen(*kinds: type[BaseResult]) -> BaseResult:
@@ -63,6 +64,8 @@ def export(
         files = (write_vtk(chosen(*kinds), output),)
     elif suffix in TRACTIONS:
         files = (write_tractions(chosen(Contact), output, units=units),)
+    elif suffix in ELEMENTS:
+        files = write_elements(chosen(Contact), output, units=units)
     else:
         files = write(opened.tree if not part else opened[part].dataset, output)
     shell.written(files)

@@ -4,6 +4,7 @@ from treadload.footprint import Footprint
 from treadload.results.bibtex import bibtex
 from treadload.results.dataset import Fields, height_map
 from treadload.results.discs import EquivalentDiscs, equivalent_discs
+from treadload.results.elements import write_elements
 from treadload.results.exports import write_csv, write_excel, write_parquet
 from treadload.results.files import open_results, save_results
 from treadload.results.opened import Results
@@ -28,6 +29,7 @@ __all__ = [
     "save_results",
     "to_tree",
     "write_csv",
+    "write_elements",
     "write_excel",
     "write_parquet",
     "write_tractions",

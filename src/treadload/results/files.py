@@ -17,7 +17,7 @@ from treadload.errors import InputError
 from treadload.files import NETCDF, check_suffix, read_tree, write_whole
 from treadload.results.opened import Results
 from treadload.results.schema import check_tree, short
-from treadload.results.tree import FORMAT, as_tree
+from treadload.results.tree import CF, FORMAT, as_tree
 
 
 def save_results(results: Any, path: str | os.PathLike[str]) -> Path:
@@ -45,7 +45,7 @@ def _image(data: xr.DataTree | xr.Dataset) -> bytes:
                 root = H5NetCDFStore(file)
                 for node in tree.subtree:
                     store = root if node is tree else root.get_child_store(node.path)
-                    node.to_dataset(inherit=node is tree).dump_to_store(store)
+                    _by_convention(node.to_dataset(inherit=node is tree), root=node is tree).dump_to_store(store)
             image.flush()
             content: bytes = image.id.get_file_image()
     except (OSError, RuntimeError) as error:
@@ -53,6 +53,17 @@ def _image(data: xr.DataTree | xr.Dataset) -> bytes:
             raise MemoryError(str(error)) from error
         raise
     return content
+
+
+def _by_convention(data: xr.Dataset, *, root: bool) -> xr.Dataset:
+    """What CF asks of a file: no missing values of coordinates, the convention and a history."""
+    data = data.copy(deep=False)
+    for coordinate in data.coords.values():
+        coordinate.encoding["_FillValue"] = None
+    if root:
+        made = f"{data.attrs.get('created', '')} written by treadload {__version__}".strip()
+        data.attrs = {"Conventions": CF, "history": made, **data.attrs}
+    return data
 
 
 def open_results(path: str | os.PathLike[str]) -> Results:

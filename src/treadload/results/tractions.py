@@ -7,6 +7,7 @@ import os
 from pathlib import Path
 
 import numpy as np
+import xarray as xr
 
 from treadload.composing import Source, dataset_of
 from treadload.errors import InputError
@@ -17,7 +18,7 @@ TRACTIONS = {".dat": "contact stresses for finite elements", ".txt": "contact st
 """Suffixes of tables of contact stresses."""
 
 # Units of length and stress, and their factors from SI. N, mm, MPa belong together as m, N, Pa do.
-_UNITS = {"SI": ("m", 1.0, "Pa", 1.0), "mm": ("mm", 1e3, "MPa", 1e-6)}
+UNITS = {"SI": ("m", 1.0, "Pa", 1.0), "mm": ("mm", 1e3, "MPa", 1e-6)}
 
 
 def write_tractions(
@@ -32,19 +33,13 @@ def write_tractions(
     Raises InputError for unknown units, a contact without pressure, and uneven cells.
     """
     check_suffix(path, TRACTIONS, "contact stresses")
-    if units not in _UNITS:
+    if units not in UNITS:
         raise InputError(f"units of contact stresses are 'SI' (m, Pa) or 'mm' (mm, MPa), got {units!r}")
     data = dataset_of(contact)
-    if "pressure" not in data or not {"x", "y"} <= set(data["pressure"].dims):
-        raise InputError(f"cannot write {path}: contact stresses need the pressure of a contact over x and y")
+    p, qx, qy = stresses_on_cells(data, path)
     x, y = (data[name].to_numpy().astype(float) for name in ("x", "y"))
-    dx, dy = _step(x, "x"), _step(y, "y")
-    p, qx, qy = (
-        np.nan_to_num(data[name].transpose("y", "x").to_numpy().astype(float)) if name in data
-        else np.zeros((len(y), len(x)))
-        for name in ("pressure", "traction_x", "traction_y")
-    )  # fmt: skip
-    length, per_m, stress, per_pa = _UNITS[units]
+    dx, dy = cell_size(x, "x"), cell_size(y, "y")
+    length, per_m, stress, per_pa = UNITS[units]
     forces = [float(plane.sum() * dx * dy) for plane in (p, qx, qy)]
     across, down = np.meshgrid(x, y)
     loaded = np.full(p.shape, True) if everywhere else (p != 0) | (qx != 0) | (qy != 0)
@@ -65,7 +60,23 @@ def write_tractions(
     return write_whole(path, stream.getvalue())
 
 
-def _step(values: Array, name: str) -> float:
+def stresses_on_cells(data: xr.Dataset, path: str | os.PathLike[str]) -> tuple[Array, Array, Array]:
+    """Pressure and both shears of a contact (ny, nx), Pa, zero where they are missing. Raises InputError.
+
+    path: of what shall be written, for the error.
+    """
+    if "pressure" not in data or not {"x", "y"} <= set(data["pressure"].dims):
+        raise InputError(f"cannot write {path}: contact stresses need the pressure of a contact over x and y")
+    shape = data.sizes["y"], data.sizes["x"]
+    p, qx, qy = (
+        np.nan_to_num(data[name].transpose("y", "x").to_numpy().astype(float)) if name in data else np.zeros(shape)
+        for name in ("pressure", "traction_x", "traction_y")
+    )
+    return p, qx, qy
+
+
+def cell_size(values: Array, name: str) -> float:
+    """The distance of even centres of cells (n,), m. name: of their axis, for the error. Raises InputError."""
     steps = np.diff(values)
     if not len(steps) or np.ptp(steps) > 1e-6 * abs(steps.mean()):
         raise InputError(

@@ -35,6 +35,8 @@ from treadload.rows import as_json
 
 FORMAT = 2
 """Format of the files: 1 holds fields, words and the case; 2 also the inputs of every result."""
+CF = "CF-1.11"
+"""Conventions of names, units and flags that the files follow (Climate and Forecast metadata conventions)."""
 QUESTIONS = "asked"
 """Name of the group that holds the inputs of the parts."""
 
@@ -109,7 +111,10 @@ def to_tree(
         "citations": json.dumps(references(methods), ensure_ascii=False),
         **_provenance(),
     }
-    arrays = {name: ([f"{name}_{k}" for k in range(array.ndim)], array) for name, array in writer.arrays.items()}
+    arrays = {
+        name: ([f"{name}_{k}" for k in range(array.ndim)], array, {"long_name": "array among the inputs of a result"})
+        for name, array in writer.arrays.items()
+    }
     groups[QUESTIONS] = xr.Dataset(arrays, attrs={"questions": json.dumps(questions, ensure_ascii=False)})
     return xr.DataTree.from_dict({"/": xr.Dataset(attrs=root), **{f"/{k}": v for k, v in groups.items()}})
 
@@ -217,7 +222,9 @@ def _provenance() -> dict[str, Any]:
         "treadload_version": __version__,
         "results_format": FORMAT,
         "versions": json.dumps(_versions()),
-        "created": datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds"),
+        "created": (created := datetime.datetime.now(datetime.UTC).isoformat(timespec="seconds")),
+        "Conventions": CF,
+        "history": f"{created} solved by treadload {__version__}",
         "conventions": "x: travel, y: right, z: down; tension positive; traction: by the tire on the road; SI units",
     }
 

@@ -1,15 +1,16 @@
 """Contacts and responses as VTK files in XML, which ParaView and other programs draw.
 
-Written in the format that its makers publish ("VTK XML formats", https://docs.vtk.org): numbers in base64 within the
-XML, little-endian, so that nothing else is needed to write or to read them. SI units, tension positive; x along
-travel, y to the right, z down, which is right-handed: a viewer that points z up shows the road from below until its
-camera is turned.
+Written in the format that its makers publish ("VTK XML formats", https://docs.vtk.org): numbers packed by zlib, in
+base64 within the XML, little-endian, so that nothing else is needed to write or to read them. SI units, tension
+positive; x along travel, y to the right, z down, which is right-handed: a viewer that points z up shows the road from
+below until its camera is turned.
 """
 
 from __future__ import annotations
 
 import base64
 import os
+import zlib
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,8 @@ VTK = {
 # Rows of a 3 x 3 tensor in the order of VTK.
 _TENSOR = (("xx", "xy", "xz"), ("xy", "yy", "yz"), ("xz", "yz", "zz"))
 _QUAD, _HEXAHEDRON = 9, 12
+# Bytes of a block before it is packed.
+_BLOCK = 2**20
 _VECTORS = ("traction", "slip", "slip_distance", "displacement")
 
 
@@ -78,7 +81,8 @@ def write_vtk(result: Source, path: str | os.PathLike[str]) -> Path:
             kind = "UnstructuredGrid"
             piece = f'NumberOfPoints="{len(points)}" NumberOfCells="{len(corners)}"'
     whole = "" if suffix == ".vtu" else f' WholeExtent="{extent}"'
-    head = f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64">'
+    head = f'<VTKFile type="{kind}" version="1.0" byte_order="LittleEndian" header_type="UInt64" '
+    head += 'compressor="vtkZLibDataCompressor">'
     text = ['<?xml version="1.0"?>', head, f"<{kind}{whole}>", f"<Piece {piece}>", *lines, "</Piece>", f"</{kind}>"]
     return write_whole(path, "\n".join([*text, "</VTKFile>", ""]))
 
@@ -140,10 +144,19 @@ def _array(name: str, values: Any) -> str:
     kind, words = ("<f8", "Float64") if array.dtype.kind == "f" else ("<i8", "Int64")
     if array.dtype == np.uint8:
         kind, words = "u1", "UInt8"
-    raw = np.ascontiguousarray(array, dtype=kind).tobytes()
-    coded = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode()
+    coded = _packed(np.ascontiguousarray(array, dtype=kind).tobytes())
     components = f' NumberOfComponents="{array.shape[1]}"' if array.ndim > 1 else ""
     return f'<DataArray type="{words}" Name={quoteattr(name)}{components} format="binary">{coded}</DataArray>'
+
+
+def _packed(raw: bytes) -> str:
+    """Bytes in blocks packed by zlib behind 64-bit numbers: blocks, their size, that of the last, packed sizes."""
+    blocks = [raw[start : start + _BLOCK] for start in range(0, len(raw), _BLOCK)]
+    packed = [zlib.compress(block) for block in blocks]
+    # The last block has the size of the others where it is full.
+    last = len(raw) % _BLOCK
+    head = np.array([len(blocks), _BLOCK, last, *map(len, packed)], dtype="<u8").tobytes()
+    return (base64.b64encode(head) + base64.b64encode(b"".join(packed))).decode()
 
 
 def _edges(centres: Array) -> Array:
