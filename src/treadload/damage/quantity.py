@@ -196,7 +196,7 @@ class Quantity(ABC):
         return xr.DataArray(self.values(data), places, dims, self.name, self.attributes)
 
     @property
-    def attributes(self) -> dict[str, str]:
+    def attributes(self) -> dict[str, object]:
         """Attributes `units` and `long_name` of a variable that holds it."""
         registered = self.name in variables.VARIABLES
         return variables.attributes(self.name) if registered else {"units": self.unit, "long_name": self.words}

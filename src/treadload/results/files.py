@@ -61,8 +61,8 @@ def _by_convention(data: xr.Dataset, *, root: bool) -> xr.Dataset:
     for coordinate in data.coords.values():
         coordinate.encoding["_FillValue"] = None
     if root:
-        made = f"{data.attrs.get('created', '')} written by treadload {__version__}".strip()
-        data.attrs = {"Conventions": CF, "history": made, **data.attrs}
+        history = f"{data.attrs.get('created', '')} written by treadload {__version__}".strip()
+        data.attrs = {"Conventions": CF, "history": history, **data.attrs}
     return data
 
 

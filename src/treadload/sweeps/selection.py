@@ -69,7 +69,7 @@ def _selector(text: str, case: Case) -> Selector:
     return Selector(text, how, part, name)
 
 
-def attributes(label: str) -> dict[str, str]:
+def attributes(label: str) -> dict[str, object]:
     """Units and long name of what a study holds under a label."""
     for how, prefix in _LABELS.items():
         name = label.removeprefix(f"{prefix}_")
