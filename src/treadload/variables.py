@@ -1077,18 +1077,16 @@ def in_order(data: xr.Dataset) -> xr.Dataset:
     return data.assign(turned) if turned else data
 
 
-# What the conventions of CF-1.11 ask beside units and long names: axes (chapter 4), flags of the type of their
-# variable (section 3.5).
+# What CF-1.11 asks beside units and long names: the direction of depths (section 4.3), flags of the type
+# of their variable (section 3.5). X and Y are no longitude and latitude, for which checkers take an `axis`.
 _CF: dict[str, dict[str, object]] = {
-    "x": {"axis": "X"},
-    "y": {"axis": "Y"},
-    "depth": {"standard_name": "depth", "positive": "down", "axis": "Z"},
+    "depth": {"standard_name": "depth", "positive": "down"},
     "state": {"flag_values": np.array([0, 1, 2], dtype=np.int8), "flag_meanings": "open stick slip"},
 }
 
 
 def attributes(name: str) -> dict[str, object]:
-    """Attributes `units` and `long_name` of a variable, and what CF asks of axes and flags."""
+    """Attributes `units` and `long_name` of a variable, and what CF asks of depths and flags."""
     units, long_name = VARIABLES[name]
     return {"units": units, "long_name": long_name, **_CF.get(name, {})}
 
