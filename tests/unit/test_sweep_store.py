@@ -17,11 +17,13 @@ import xarray as xr
 import treadload as tl
 from cases import BASE_AND_SOIL, ONE_AXLE
 from sweeps import same, small_case
+from treadload import variables
 from treadload.errors import InputError
 from treadload.results import to_tree
 from treadload.steps import run
 from treadload.sweeps import open_sweep, places
 from treadload.sweeps import store as stores
+from treadload.sweeps.arrays import _in_json
 from treadload.sweeps.manifest import sealed
 
 zarr = pytest.importorskip("zarr")
@@ -362,3 +364,14 @@ if __name__ == "__main__":
 
 def journal_safely(path):
     return (path / ".records.jsonl").read_bytes().splitlines()
+
+
+@pytest.mark.parametrize("name", ["state", "depth", "pressure"])
+def test_attributes_of_a_field_are_what_a_store_keeps(name):
+    """Flags of a contact's state are an array beside the data, and a list in Zarr's JSON."""
+    about = variables.attributes(name)
+    kept = _in_json(about)
+    assert json.loads(json.dumps(kept)) == kept
+    assert set(kept) == set(about)
+    if name == "state":
+        assert kept["flag_values"] == [0, 1, 2]

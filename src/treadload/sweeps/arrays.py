@@ -130,7 +130,7 @@ def write_fields(path: Path, design: Design, files: Mapping[int, Path]) -> list[
         target = group.create_array(
             label, shape=(*design.shape, *sizes), chunks=(*([1] * (len(design.shape) - 1)), along, *sizes),
             dtype="f8", fill_value=np.nan,
-            attributes={"_ARRAY_DIMENSIONS": [*design.dims, *dims], **attributes(name)},
+            attributes={"_ARRAY_DIMENSIONS": [*design.dims, *dims], **_in_json(attributes(name))},
         )  # fmt: skip
         blocks: dict[tuple[int, ...], list[int]] = {}
         for number in files:
@@ -185,3 +185,8 @@ def _fields_of(number: int, file: Path, *, shapes_only: bool = False) -> Record 
             AttributeError, OSError, RuntimeError, MemoryError):  # fmt: skip
         return None
     return Record(number, 0.0, fields=fields, coordinates=coordinates)
+
+
+def _in_json(about: Mapping[str, object]) -> dict[str, object]:
+    """Attributes as Zarr keeps them, without arrays."""
+    return {key: value.tolist() if isinstance(value, np.ndarray) else value for key, value in about.items()}
