@@ -3,6 +3,7 @@
 import csv
 import json
 import sys
+from concurrent.futures import Future
 
 import numpy as np
 import pytest
@@ -128,7 +129,9 @@ def unprinted(monkeypatch):
 
     def picture(title, caption, draw, wide=False):
         assert draw().axes
-        return [Picture(title, caption, "data:,", 100, wide)]
+        encoded = Future()
+        encoded.set_result("data:,")
+        return [Picture(title, caption, encoded, 100, wide)]
 
     monkeypatch.setattr("treadload.reporting.pictures.picture", picture)
 
