@@ -6,14 +6,24 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.contact import rolling_resistance, solve_transient, turn_on_the_spot
+from treadload.contact import (
+    creep_curve,
+    cross_obstacle,
+    envelop,
+    rolling_resistance,
+    solve_indentation,
+    solve_transient,
+    turn_on_the_spot,
+)
 from treadload.contact.bodies.body import Rows, Strip
 from treadload.contact.bodies.half_space import HalfSpaces
 from treadload.contact.bodies.ribs import Ribs
 from treadload.contact.bodies.viscoelastic import of_material
 from treadload.errors import InputError
 from treadload.kernels.gridding.strips import Strips
-from treadload.materials import Prony
+from treadload.materials import ElastoPlastic, Prony, VonMises
+from treadload.pavement import RoadStep
+from treadload.response import roll_drum
 from treadload.tire import TreadProfile
 from treadload.tire.grooves import Groove
 
@@ -138,3 +148,25 @@ def test_histories_take_elastic_ribs():
         turn_on_the_spot(tire(PRONY), ROAD, wheel, angles=np.radians([1.0]), spacing=CELL)
     with pytest.raises(InputError, match="rubbery"):
         solve_transient(tire(PRONY), ROAD, wheel, distances=[0.01], spacing=CELL)
+
+
+def test_what_takes_ribs_that_remember():
+    wheel = tl.Rolling(normal_load=8e3, friction=0.6, speed=5.0)
+    curve = creep_curve(tire(PRONY), ROAD, wheel, [0.0, 0.005, 0.5], along="y", spacing=CELL)
+    force = np.abs(curve.dataset.lateral_force.values)
+    assert force[0] < 1e-6 * force[1] < 1e-6 * force[2]
+    spread = envelop(curve.contacts[0], 0.02)
+    assert float(spread.dataset.normal_load) == pytest.approx(8e3, rel=1e-6)
+    cornering = tl.Rolling(normal_load=8e3, friction=0.6, spin=0.5, creepage_y=0.03, speed=5.0)
+    assert abs(float(tl.solve_contact(tire(PRONY), ROAD, cornering, spacing=CELL).dataset.aligning_moment)) > 1.0
+
+
+def test_what_takes_elastic_ribs_says_so():
+    wheel = tl.Rolling(normal_load=8e3, friction=0.6, speed=5.0)
+    plastic = tl.Pavement.half_space(ElastoPlastic(tl.Elastic(2e8, 0.3), VonMises(5e5)))
+    with pytest.raises(InputError, match="rubbery"):
+        cross_obstacle(tire(PRONY), ROAD, wheel, RoadStep(5e-3), positions=[0.0], spacing=CELL)
+    with pytest.raises(InputError, match="rubbery"):
+        solve_indentation(tire(PRONY), plastic, [8e3], spacing=CELL)
+    with pytest.raises(InputError, match="rubbery"):
+        roll_drum(tire(PRONY), plastic, 8e3, passes=1)

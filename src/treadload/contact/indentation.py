@@ -16,7 +16,7 @@ import xarray as xr
 from treadload import variables
 from treadload.citations import DENTS
 from treadload.composing import BaseResult, Holds
-from treadload.contact.bodies.choose import Pair
+from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.load_steps import STEP_ERROR, Pressed, Pressing, step_error
 from treadload.contact.rib_sections import prepare_ribs
@@ -129,7 +129,7 @@ def solve_indentation(
     start = time.perf_counter()
     tell = (lambda text: None) if progress is None else progress
     material, steps = _checked(road, loads, depth, layers, tolerance)
-    pair = Pair.of(tire, road)
+    pair = Pair(surface_of(tire.elastic, is_tire=True), road_surface(road))
     prepare_ribs(tire, cell_across(tire, spacing), tell)
     most = Rolling(normal_load=2 * max(steps), friction=1.0)
     grid, gap = place(tire, most, pair.both, spacing)

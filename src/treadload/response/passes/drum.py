@@ -20,7 +20,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
-from treadload.contact.bodies.choose import Pair
+from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bounds import check_ribs
 from treadload.contact.solve import BorderError, check_border
@@ -135,7 +135,7 @@ def roll_drum(
     keys: ZoneKeys = {"layers": _ROWS, **zone}
     followed = Zone(**keys)
     cell = _cell(followed.spacing, drum)
-    pair = Pair.of(drum, road, road_compliance="layers")
+    pair = Pair(surface_of(drum.elastic, is_tire=True), road_surface(road, "layers"))
     elastic = _elastic(drum, pair, load)
     question = problem_of(elastic, road, replace(followed, spacing=None), speed=speed, tell=progress)
     if any(isinstance(course.material.law, PassesPowerLaw) for course in question.courses):
