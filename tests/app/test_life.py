@@ -95,7 +95,7 @@ def test_who_does_it_is_told_for_the_chosen_criterion(solved):
         engine.answer({"id": 3, "do": "shares", "run": "a", "criterion": name})
     assert len({one["pictures"]["life.shares"]["url"] for one in said}) == len(names)
     for one, name in zip(said, names, strict=True):
-        assert {row["note"] for row in one["rows"] if row["heading"] == "Who does the damage"} == {f"of {name}"}
+        assert {row["note"] for row in one["rows"] if row["heading"] == "Damage by axle class"} == {f"of {name}"}
 
 
 @pytest.mark.parametrize("kind", ["nc", "csv"])

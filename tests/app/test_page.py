@@ -494,7 +494,7 @@ def test_a_life_is_what_python_gives(life, tmp_path):
     assert len(names) == 3
     for name in names:
         assert told[f"life_years:{name}"] in summary
-    assert {"who", "when", "elasticity"} <= {key.partition(":")[0] for key in told}
+    assert {"by_class", "by_season", "elasticity"} <= {key.partition(":")[0] for key in told}
     drawn = page.locator("#pictures img")
     assert {drawn.nth(k).get_attribute("data-picture") for k in range(drawn.count())} >= {
         "life.years",

@@ -138,7 +138,7 @@ def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
         "depends most on thickness of base (+5 %)",
         "life +16 %",
         "NF P98-086",
-        "Who does the damage",
+        "Damage by axle class and season",
         "every axle",
     ):
         assert words in page

@@ -22,6 +22,8 @@ PageRow = dict[str, Any]
 
 # Shares of the damage below this are left out.
 _LEAST = 0.005
+# Dimension, key and heading of what the damage is shared out by.
+_SHARED_OUT = (("axle_class", "by_class", "Damage by axle class"), ("season", "by_season", "Damage by season"))
 
 
 @functools.cache
@@ -43,7 +45,10 @@ def rows_of(parts: Mapping[str, BaseResult], criterion: str = "") -> list[PageRo
         about = (inspect.getdoc(type(part)) or "").partition("\n")[0]
         shown += page_rows(part.rows(), label_of(name), about)
         if isinstance(part, Life):
-            for dim, key, heading in (("axle_class", "who", "Who does the damage"), ("season", "when", "When")):
+            for dim, key, heading in (
+                ("axle_class", "by_class", "Damage by axle class"),
+                ("season", "by_season", "Damage by season"),
+            ):
                 shares = _shares(part, criterion or part.governing_criterion, dim, key)
                 shown += page_rows(shares, heading)
     contact = parts.get("contact")
@@ -90,7 +95,7 @@ def allowed_rows(allowed: PassesAllowed) -> list[PageRow]:
 
 
 def _shares(life: Life, criterion: str, dim: str, key: str) -> Iterator[Row]:
-    """Who does the damage by a criterion, or when. dim: of the damage. key: of the rows."""
+    """Shares of the damage by a criterion. dim: of the damage. key: of the rows."""
     share = life.dataset["damage_share"].sel(criterion=criterion)
     totals = share.sum([name for name in share.dims if name != dim])
     for name, value in zip(totals[dim].to_numpy(), totals.to_numpy(), strict=True):

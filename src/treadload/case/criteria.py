@@ -112,23 +112,23 @@ def quantity_of(table: Mapping[str, object]) -> Quantity | None:
     return quantity
 
 
-def _number(who: str, wanted: int | str | None, road: Pavement, usual: int | None) -> int:
+def _number(criterion: str, wanted: int | str | None, road: Pavement, usual: int | None) -> int:
     """Number of the layer from 0 at the surface."""
     names = [layer.name for layer in road.layers]
     listed = ", ".join(f"{number} {name!r}" for number, name in enumerate(names, start=1))
     if wanted is None:
         if usual is None:
-            raise InputError(f"{who!r}: layer is missing; the road has {listed}")
+            raise InputError(f"{criterion!r}: layer is missing; the road has {listed}")
         return usual % len(names)
     if isinstance(wanted, int):
         if not 1 <= wanted <= len(names):
-            raise InputError(f"{who!r}: no layer {wanted}; the road has {listed}")
+            raise InputError(f"{criterion!r}: no layer {wanted}; the road has {listed}")
         return wanted - 1
     matches = [k for k, name in enumerate(names) if wanted.casefold() == name.casefold()]
     if len(matches) != 1:
         if matches:
-            raise InputError(f"{who!r}: several layers have the name {wanted!r}; the road has {listed}")
+            raise InputError(f"{criterion!r}: several layers have the name {wanted!r}; the road has {listed}")
         raise InputError(
-            f"{who!r}: no layer has the name {wanted!r}; {nearest(wanted, names)}; the road has {listed}"
+            f"{criterion!r}: no layer has the name {wanted!r}; {nearest(wanted, names)}; the road has {listed}"
         )
     return matches[0]

@@ -21,7 +21,7 @@ FEWER = (10, 700)
 EVALUATED = 5
 # That of the bus stop of `examples/top_down`, whose braking front axle does most: layer and ribs, microstrain.
 BRAKED = (117, 140)
-_WHO = {
+_STATES = {
     "filled": "the tread has circumferential grooves, and this tire has them filled, as a layer or a half-space",
     "unknown": "whether the tread has circumferential ribs is not known, and this tire has none with free sides",
 }
@@ -32,14 +32,14 @@ def sides_in_words(sides: Iterable[str]) -> list[str]:
 
     sides: of the tires, as `Tire.rib_sides`; empty of loads that are of no tire.
     """
-    for state, who in _WHO.items():
+    for state, reason in _STATES.items():
         if state in set(sides):
             (stiff, free_stiff), (hot, free_hot) = STRAINS
             return [
-                f"{who}: ribs with free sides shear the surface outward. Under a freely rolling 315/80R22.5 they "
-                "raised the largest in-plane strain at the surface, compared with a layer on the same belt, from "
-                f"{stiff} to {free_stiff} microstrain on asphalt of 5.4 GPa and from {hot} to {free_hot} on a French "
-                f"structure at 40 °C: {FEWER[0]} to {FEWER[1]} times fewer load repetitions at a slope of -0.2, "
+                f"{reason}: ribs with free sides shear the surface outward. Under a freely rolling 315/80R22.5 "
+                "they raised the largest in-plane strain at the surface, compared with a layer on the same belt, "
+                f"from {stiff} to {free_stiff} microstrain on asphalt of 5.4 GPa and from {hot} to {free_hot} on a "
+                f"French structure at 40 °C: {FEWER[0]} to {FEWER[1]} times fewer load repetitions at a slope of -0.2, "
                 "without a bound where the layer compresses the surface (25 °C). That strain lies where no principal "
                 "stress is tensile. Where one is, the strain, which an assessment of tensile strain evaluates, fell "
                 f"by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; where a bus brakes it "

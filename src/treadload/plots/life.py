@@ -155,7 +155,7 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
 
 
 @figure(
-    "Life", name="shares", title="Who does the damage, and when", wide=True, order=3,
+    "Life", name="shares", title="Damage by axle class and season", wide=True, order=3,
     caption="Shares of the governing damage at its worst place by class of axles and season; blank: below 0.5 %.",
 )  # fmt: skip
 @styled
@@ -192,7 +192,7 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
     ax.tick_params(length=0)
     ax.spines[:].set_visible(False)
     ax.invert_yaxis()
-    headline(ax, "Who does the damage, and when", f"{plain(chosen)}: per cent of its damage at the worst place")
+    headline(ax, "Damage by axle class and season", f"{plain(chosen)}: per cent of its damage at the worst place")
     totals = share.sum(axis=1)
     side.barh(np.arange(rows) + 0.5, totals, height=0.62, color=RULE)
     for row, value in enumerate(totals):

@@ -24,18 +24,18 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
     for number, layer in enumerate(road.layers):
         material = layer.resolved
         modulus, poisson = upright(limit_of(material, "glassy"))
-        who = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")
+        place = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")
         if isinstance(layer.material, ElastoPlastic):
             warnings += (
-                f"{who} can yield, and this is the response of its elastic part; roll_passes follows the rest",
+                f"{place} can yield, and this is the response of its elastic part; roll_passes follows the rest",
             )
-        warnings += doubt("modulus of the layer", modulus, who) + doubt("Poisson's ratio", poisson, who)
+        warnings += doubt("modulus of the layer", modulus, place) + doubt("Poisson's ratio", poisson, place)
         if layer.thickness is not None:
             kind = _position(number, len(road.layers), modulus)
-            warnings += doubt(kind, layer.thickness, "" if number == 0 else who)
+            warnings += doubt(kind, layer.thickness, "" if number == 0 else place)
         bond = layer.bond.sticking
         if len(bond.limits) == 1 and 0 < bond.stiffness < math.inf:
-            warnings += doubt("stiffness of the bond", bond.stiffness, f"the bond below {who}")
+            warnings += doubt("stiffness of the bond", bond.stiffness, f"the bond below {place}")
     return warnings
 
 

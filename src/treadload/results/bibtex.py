@@ -15,7 +15,7 @@ from treadload.citations import REFERENCES, references
 from treadload.results.schema import read_json
 
 # "Love, A. E. H. (1929). The stress produced ... Phil. Trans. R. Soc. A 228, 377-420."
-_WHOLE = re.compile(r"(?P<who>.+?) \((?P<year>\d{4})\)\. (?P<title>.+?)(?:\. (?P<where>.+?))?\.?$")
+_WHOLE = re.compile(r"(?P<authors>.+?) \((?P<year>\d{4})\)\. (?P<title>.+?)(?:\. (?P<where>.+?))?\.?$")
 _JOURNAL = re.compile(r"(?P<journal>.+?),? (?P<volume>\d+(?:-\d+)?), (?P<pages>[\w-]+)$")
 _PUBLISHED = re.compile(r"(?:.*\. )?(?P<publisher>[^.:]*?(?:Press|Kluwer|Holden-Day|Wiley|Springer)[^.:,]*)")
 _AUTHOR = re.compile(r"[^,]+, (?:[A-ZÀ-Ý]\.[ -]?)+")
@@ -59,7 +59,7 @@ def _parsed(text: str) -> tuple[str, dict[str, str]]:
         return "misc", {"note": text}
     title, where = match["title"], match["where"] or ""
     # A title ends at its first point; the rest is where it was published.
-    fields = {"author": _authors(match["who"]), "year": match["year"], "title": f"{{{title}}}"}
+    fields = {"author": _authors(match["authors"]), "year": match["year"], "title": f"{{{title}}}"}
     journal = _JOURNAL.match(where)
     if journal is not None:
         pages = journal["pages"].replace("-", "--")
@@ -71,9 +71,9 @@ def _parsed(text: str) -> tuple[str, dict[str, str]]:
     return "misc", {**fields, **({"note": where} if where else {})}
 
 
-def _authors(who: str) -> str:
-    names = [name.strip(" ,") for name in _AUTHOR.findall(who)]
-    return " and ".join(names) if names else f"{{{who}}}"
+def _authors(text: str) -> str:
+    names = [name.strip(" ,") for name in _AUTHOR.findall(text)]
+    return " and ".join(names) if names else f"{{{text}}}"
 
 
 def _key(fields: dict[str, str]) -> str:

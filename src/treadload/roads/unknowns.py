@@ -69,11 +69,6 @@ class Unknowns:
     def _all_bounds(self) -> tuple[tuple[float, float], ...]:
         return (*self.bounds, *((self.depth_bounds,) if self.seeks_depth else ()))
 
-    @property
-    def has_priors(self) -> bool:
-        """True if a modulus has a prior."""
-        return any(prior is not None for prior in self.priors)
-
 
 def layer_names(road: Pavement) -> tuple[str, ...]:
     """Names of the layers, each once: "layer 3" where one has none, numbered where several share one."""

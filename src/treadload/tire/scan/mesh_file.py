@@ -95,18 +95,18 @@ def _read(reader: Entry, path: Path) -> Triangles:
     if reader.package == OURS:
         triangles: Triangles = reader.target(path)
         return triangles
-    who = f"scan file {path.name!r} could not be read by the reader {reader.name!r} of {reader.package}"
+    failure = f"scan file {path.name!r} could not be read by the reader {reader.name!r} of {reader.package}"
     try:
         points, corners = reader.target(path)
         vertices, faces = np.array(points, dtype=np.float64), np.array(corners)
     except TreadloadError:
         raise
     except Exception as error:
-        raise InputError(f"{who}: {error_line(error)}; the file or that package is broken") from error
+        raise InputError(f"{failure}: {error_line(error)}; the file or that package is broken") from error
     whole = faces.dtype.kind in "iu" or not faces.size
     if vertices.ndim != 2 or vertices.shape[1] != 3 or (faces.size and faces.shape[1:] != (3,)) or not whole:
         raise InputError(
-            f"{who}: it must return vertices (n, 3) and faces (m, 3) of whole numbers, got {vertices.shape} and "
+            f"{failure}: it must return vertices (n, 3) and faces (m, 3) of whole numbers, got {vertices.shape} and "
             f"{faces.shape} of {faces.dtype}; repair that package"
         )
     return vertices, faces.astype(np.int64)
