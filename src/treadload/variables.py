@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -1092,7 +1091,7 @@ def attributes(name: str) -> dict[str, object]:
 
 
 def dataset(
-    fields: Mapping[str, tuple[tuple[str, ...], Any]], coordinates: Mapping[str, object], **attrs: object
+    fields: Mapping[str, tuple[tuple[str, ...], object]], coordinates: Mapping[str, object], **attrs: object
 ) -> xr.Dataset:
     """Dataset whose variables and coordinates carry their units and long names.
 

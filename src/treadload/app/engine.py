@@ -93,7 +93,7 @@ class Engine:
             self._solving.join()
 
     def _say_of(self, number: int) -> Say:
-        def say(figures: dict[str, Any] | None = None, **answer: object) -> None:
+        def say(figures: dict[str, object] | None = None, **answer: object) -> None:
             # Figures are JSON already, which the browser alone reads.
             if figures:
                 answer["figures"] = {name: map_figures.as_text(figure) for name, figure in figures.items()}
@@ -103,7 +103,7 @@ class Engine:
 
         return say
 
-    def _guarded(self, say: Say, do: Callable[..., None], request: dict[str, Any]) -> None:
+    def _guarded(self, say: Say, do: Callable[..., None], request: dict[str, object]) -> None:
         try:
             do(say, **request)
         except Stopped:

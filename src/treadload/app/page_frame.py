@@ -90,7 +90,7 @@ class Page:
         """What a solve is asked for, besides the run, its tables and the theme."""
         return {}
 
-    def drawn(self, run: Run, answer: dict[str, Any]) -> None:
+    def drawn(self, run: Run, answer: dict[str, object]) -> None:
         """Draw a part of a run that is there."""
 
     def finished(self, run: Run) -> None:

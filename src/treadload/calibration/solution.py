@@ -175,7 +175,7 @@ def shown(unit: Unit) -> tuple[float, str]:
     return _SHOWN.get(unit.kind or unit.si, (1.0, unit.symbol))
 
 
-def solution(problem: Problem, search_result: Fit, stats: Mapping[str, Any]) -> Calibration:
+def solution(problem: Problem, search_result: Fit, stats: Mapping[str, object]) -> Calibration:
     """The result of a search: covariance, what is not decided, warnings."""
     names = [unknown.name for unknown in problem.sought]
     free = search_result.at_bound == 0

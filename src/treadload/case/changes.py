@@ -13,7 +13,7 @@ _REMOVED = object()
 _EXAMPLE = 'rolling.friction=0.6 or pavement.layers.0.thickness="8 cm"'
 
 
-def changed(table: dict[str, Any], changes: Sequence[str]) -> dict[str, Any]:
+def changed(table: dict[str, object], changes: Sequence[str]) -> dict[str, Any]:
     """A copy of the tables of a case with keys set.
 
     changes: "key=value"; parts of a key are joined by points, rows of a list are counted from 0. A value is TOML,
@@ -62,7 +62,7 @@ def _set(table: dict[str, object], path: Sequence[str], value: object, change: s
         raise InputError(f"cannot remove {'.'.join(path)}: the case does not give it; it has {', '.join(here)}")
 
 
-def _row(rows: list[Any], part: str, before: str, change: str) -> int:
+def _row(rows: list[object], part: str, before: str, change: str) -> int:
     if not (part.isascii() and part.isdigit() and int(part) < len(rows)):
         raise InputError(
             f"cannot set {change!r}: {before} is a list of {len(rows)}, whose rows are 0 to {len(rows) - 1}, "

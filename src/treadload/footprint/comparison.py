@@ -125,8 +125,8 @@ _MEASURES = {
 
 
 def compare(
-    result: Any,
-    footprint: Any,
+    result: object,
+    footprint: object,
     *,
     registration: Literal["full", "shift", "none"] | Registration = "full",
     ribs: Sequence[float] | None = None,

@@ -43,7 +43,7 @@ class Scale:
 def read(
     path: Path,
     *,
-    spacing: Any = None,
+    spacing: object = None,
     colours: str | Sequence[tuple[Colour, float | str]] | None = None,
     scale: tuple[float | str, float | str] | None = None,
     bar: Box | None = None,
@@ -163,7 +163,7 @@ def _pairs(colours: object) -> list[tuple[object, object]]:
     return [(colour, pressure) for colour, pressure in pairs]
 
 
-def _pressure(value: Any) -> float:
+def _pressure(value: object) -> float:
     if isinstance(value, str):
         number, unit = leading_number(value)
         return number * pressure_factor(unit) if unit else quantity(value, "Pa")

@@ -254,7 +254,7 @@ def part_of(annotation: object, table: Mapping[str, object]) -> type[Table] | No
     return min(fitting, key=lambda part: _missing(part, table), default=None)
 
 
-def is_named(annotation: object, items: list[Mapping[str, Any]]) -> bool:
+def is_named(annotation: object, items: list[Mapping[str, object]]) -> bool:
     """True for a list of things that must have a name."""
     part = part_of(annotation, items[0])
     return part is not None and "name" in part.model_fields and part.model_fields["name"].is_required()

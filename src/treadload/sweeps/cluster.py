@@ -109,7 +109,7 @@ def _interrupted_later() -> Iterator[None]:
             signal.raise_signal(came[0])
 
 
-def _done(distributed: ModuleType, futures: list[Any]) -> set[Any]:
+def _done(distributed: ModuleType, futures: list[object]) -> set[Any]:
     """Futures that are done by now, or within a moment."""
     try:
         done: set[Any] = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED").done
@@ -136,7 +136,7 @@ def _record(distributed: ModuleType, future: Any, number: int) -> Record | None:
     return record
 
 
-def _client(distributed: ModuleType, scheduler: Any, jobs: int, stack: contextlib.ExitStack) -> Any:
+def _client(distributed: ModuleType, scheduler: object, jobs: int, stack: contextlib.ExitStack) -> Any:
     if isinstance(scheduler, distributed.Client):
         return scheduler
     if scheduler == LOCAL:
@@ -161,7 +161,7 @@ def _client(distributed: ModuleType, scheduler: Any, jobs: int, stack: contextli
         ) from error
 
 
-def _connected(distributed: ModuleType, scheduler: Any) -> Any:
+def _connected(distributed: ModuleType, scheduler: object) -> Any:
     """A client of a scheduler; an interruption leaves it to its thread, for half a client cannot be closed."""
     future: Future[Any] = Future()
     left = threading.Event()

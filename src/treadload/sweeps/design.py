@@ -214,7 +214,7 @@ def from_dataset(case: Case, data: xr.Dataset) -> Design:
 
 
 def sampled(
-    case: Case, ranges: Mapping[str, tuple[Any, Any]], count: int, *, method: str = "sobol", seed: int = 0
+    case: Case, ranges: Mapping[str, tuple[object, object]], count: int, *, method: str = "sobol", seed: int = 0
 ) -> Design:
     """Cases spread over ranges, over the dimension "case".
 

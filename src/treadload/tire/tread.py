@@ -255,7 +255,7 @@ class ProfileSurface:
         return gap
 
 
-def _plain_tables(value: Any) -> Any:
+def _plain_tables(value: object) -> Any:
     """Tuples as lists and without None, as TOML wants them."""
     if isinstance(value, Mapping):
         return {key: _plain_tables(item) for key, item in value.items() if item is not None}

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.belt import belt_surface
@@ -29,7 +29,7 @@ RoadCompliance = Literal["half_space", "layers"]
 
 
 @singledispatch
-def surface_of(material: Any, *, is_tire: bool, speed: float | None = None) -> Body:
+def surface_of(material: object, *, is_tire: bool, speed: float | None = None) -> Body:
     """The body whose surface a material makes, on the tire's side or the road's.
 
     material: an Elastic, an anisotropic one or a Prony for half-spaces, or one that makes its surface itself.

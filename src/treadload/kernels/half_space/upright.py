@@ -52,7 +52,7 @@ class UprightMedium:
         """From moduli in Pa; shear: in the horizontal plane."""
         return cls(poisson, Upright(upright.along / shear, upright.across / shear, upright.shear / shear))
 
-    def fields(self, functions: Callable[[complex], Any], deep: bool, *, moves: bool = True) -> Iterator[Corner]:
+    def fields(self, functions: Callable[[complex], object], deep: bool, *, moves: bool = True) -> Iterator[Corner]:
         """As `kernels.half_space.corners.fields`, the displacement times the shear modulus in the plane.
 
         functions: those of corners or of nodes at a stretch of the depth. deep: whether below the surface, where the
@@ -64,10 +64,10 @@ class UprightMedium:
         swayed = functions(modes.transverse) if deep else alone
         unit = 1 / (2 * np.pi)
 
-        def pressed(part: object, of: Callable[[Any], Any]) -> Any:
+        def pressed(part: object, of: Callable[[object], object]) -> Any:
             return _real(unit * modes.pressed * part, [of(f) for f in at])
 
-        def sheared(part: object, of: Callable[[Any], Any]) -> Any:
+        def sheared(part: object, of: Callable[[object], object]) -> Any:
             return _real(unit * modes.sheared * part, [of(f) for f in at])
 
         along, across, ones, s = modes.along, modes.across, np.ones_like(modes.decay), modes.decay

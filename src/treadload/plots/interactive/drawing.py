@@ -25,7 +25,7 @@ _LETTER = 7.6
 _LINE = {"contact": ("muted", 1.0), "stick": ("stick", 2.0), "slip": ("slip", 1.6), "measured": ("ink", 2.2)}
 
 
-def figure(traces: Sequence[Trace], layout: dict[str, Any], theme: Theme) -> Figure:
+def figure(traces: Sequence[Trace], layout: dict[str, object], theme: Theme) -> Figure:
     """A Figure of plotly. Raises InputError where plotly is not installed."""
     try:
         import plotly.graph_objects
@@ -36,7 +36,7 @@ def figure(traces: Sequence[Trace], layout: dict[str, Any], theme: Theme) -> Fig
     return plotly.graph_objects.Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
 
 
-def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, Any]) -> Trace:
+def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, object]) -> Trace:
     """The cells of a map in colour. axes: ("x", "y"), ("x2", "y2"), ... bar: where the colour bar stands."""
     values = field.values.astype(np.float32)
     unit = f" {field.unit}" if field.unit and field.unit != "–" else ""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Unpack
+from typing import ClassVar, Unpack
 
 import numpy as np
 import xarray as xr
@@ -75,7 +75,7 @@ class Morris(Screening, group="morris"):
 
 def morris(
     case: Case,
-    ranges: Mapping[str, tuple[Any, Any]],
+    ranges: Mapping[str, tuple[object, object]],
     of: str,
     *,
     trajectories: int = 10,

@@ -83,7 +83,7 @@ class Sobol(Screening, group="sobol"):
 
 def sobol(
     case: Case,
-    ranges: Mapping[str, tuple[Any, Any]],
+    ranges: Mapping[str, tuple[object, object]],
     of: str,
     *,
     blocks: int = 64,
