@@ -42,8 +42,8 @@ def sides_in_words(sides: Iterable[str]) -> list[str]:
                 f"French structure at 40 °C: {FEWER[0]} to {FEWER[1]} times fewer load repetitions at a slope of "
                 "-0.2, without a bound where the layer compresses the surface (25 °C). That strain lies where no "
                 "principal stress is tensile. Where there is one, the strain that an assessment of tensile strain "
-                f"evaluates fell by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; where a bus "
-                f'brakes it rose from {BRAKED[0]} to {BRAKED[1]}; give the tire a belt and tread = "ribs"'
+                f"evaluates fell by at most {EVALUATED} microstrain, rolling freely or driving with 10 kN; where a "
+                f'bus brakes it rose from {BRAKED[0]} to {BRAKED[1]}; give the tire a belt and tread = "ribs"'
             ]
     return []
 
