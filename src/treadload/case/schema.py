@@ -112,19 +112,22 @@ def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[s
     return {"$schema": _DIALECT, **_plain(whole)}
 
 
-def _with_fitted(road: dict[str, Any]) -> None:
+def _with_fitted(road: dict[str, object]) -> None:
     """Let a road come from a backcalculation as well, in place of what a case else needs of it."""
-    road["properties"][FROM] = {
+    properties, ways = road["properties"], road.get("oneOf", [])
+    assert isinstance(properties, dict)
+    assert isinstance(ways, list)
+    properties[FROM] = {
         "type": "string",
         "pattern": "#",
         "description": "A result of `treadload backcalculate` and a station of it, whose fitted layers are the road.",
         "examples": ["moduli.nc#km 1.2"],
     }
-    road["properties"][OVERLAY] = {
+    properties[OVERLAY] = {
         "$ref": f"{REFERENCE}LayerPart",
         "description": "A layer laid on top of such a road.",
     }
-    road["oneOf"] = [*road.get("oneOf", []), {"required": [FROM]}]
+    road["oneOf"] = [*ways, {"required": [FROM]}]
 
 
 def _wanted(root: dict[str, object], defined: dict[str, object]) -> Iterator[str]:
