@@ -294,6 +294,7 @@ _FIELD = {
     "log_score": ("1", "log score on unseen sections, nats"),
     "score_gain": ("1", "log score less that of ages with an overlay lag, nats"),
     "score_gain_error": ("1", "standard error of this difference, of pairs, nats"),
+    "cell_age": ("1", "middle of a class of age at a survey, years"),
     "cell_sections": ("1", "sections of a class with a survey in it"),
     "seen_share": ("1", "share of a class that has cracked so far"),
     "predicted_share": ("1", "share of a class predicted by fits that have not seen it"),

@@ -114,6 +114,9 @@ def test_a_shift_of_a_bench(beside, alone):
     assert shift.level == pytest.approx(5.153, abs=1e-3)
     assert shift.factor("fresh") == pytest.approx(beside.dataset.attrs["field_factor"])
     assert shift.event == "first wheel-path crack"
+    # That of the catalogue, with its range of traffic and of the surface's temperature.
+    assert shift.traffic == pytest.approx((15e3, 748e3), rel=5e-3)
+    assert shift.mean_surface == pytest.approx((5.4, 27.2), abs=0.1)
     with pytest.raises(InputError, match="needs ages of the mechanics by both lines"):
         alone.shift("ours", "2026-11-27")
 

@@ -8,11 +8,13 @@ import pytest
 
 import treadload as tl
 from treadload.case import Case
+from treadload.damage import AxleClass, Traffic
 from treadload.damage.field_shift import FieldShift, field_shifts, read_field_shifts
 from treadload.errors import InputError
-from treadload.life.field import EVENTS, field_tables, field_years
+from treadload.life.field import EVENTS, Priors, RoadSection, field_tables, field_years
 from treadload.life.field.fit import Model, fit
 from treadload.life.field.likelihood import Sections
+from treadload.life.field.standard_axles import standard_axles, standard_axles_of
 
 LTPP = field_shifts["LTPP"]
 CASE = """
@@ -57,6 +59,32 @@ def test_the_shift_is_what_its_table_says():
     assert pytest.approx(fitted.errors["scatter"] * fitted.parameters.scatter, rel=1e-2) == LTPP.scatter_error
     np.testing.assert_allclose(LTPP.thickness, np.percentile(table.thickness, [5, 95]), atol=1e-3)
     np.testing.assert_allclose(LTPP.mean_air, np.percentile(table.mean_air, [5, 95]), atol=0.1)
+    np.testing.assert_allclose(LTPP.traffic, np.nanpercentile(table.traffic, [5, 95]), rtol=5e-3)
+    assert np.isfinite(table.traffic).sum() == 91
+
+
+def test_its_range_of_temperature_is_that_of_the_surface_below_its_air():
+    priors = Priors()
+    for air, surface in zip(LTPP.mean_air, LTPP.mean_surface, strict=True):
+        assert priors.mean_surface(air) == pytest.approx(surface, abs=0.05)
+
+
+def test_standard_axles_of_a_traffic():
+    """A standard axle is one; the truck of the priors is the 1.5 that they state from the same guide; a tandem's own
+    standard load makes one passage one axle."""
+    single = AxleClass("single", 1.0, 20e3, 8e5, wheels=((0.0, -0.17), (0.0, 0.17)))
+    assert standard_axles(Traffic((single,), 1000.0)) == pytest.approx(1000.0)
+    # Both ends of the axle as wheels of one class.
+    both = AxleClass("both", 1.0, 40e3, 8e5, wheels=((0.0, -1.0), (0.0, 1.0)))
+    assert standard_axles_of(both) == pytest.approx(1.0)
+    priors = Priors()
+    section = RoadSection("truck", 0.15, "ACUB", 1e5, 12.0)
+    assert standard_axles(priors.traffic(section)) == pytest.approx(1e5, rel=0.03)
+    # Two axles 4 m apart are two single ones; four in a row a tridem and a single.
+    apart = AxleClass("apart", 1.0, 40e3, 8e5, wheels=((0.0, 0.0), (4.0, 0.0)))
+    assert standard_axles_of(apart) == pytest.approx(2.0)
+    four = AxleClass("four", 1.0, 40e3, 8e5, wheels=tuple((1.3 * k, 0.0) for k in range(4)))
+    assert standard_axles_of(four) == pytest.approx((240 / 213.5) ** 4 + 1)
 
 
 def test_years_of_roads():
@@ -110,7 +138,12 @@ def test_outside_its_range_the_mechanics_stand_alone(solved):
     assert "outside the range" in years.warnings[0]
     assert "the mechanics alone" in years.summary()
     assert "years of roads" not in years.summary()
-    assert "mean temperature of 15 °C" in field_years(life, road, replace(LTPP, mean_air=(0, 10))).outside
+    cold = field_years(life, road, replace(LTPP, mean_surface=(0.0, 10.0)))
+    assert "mean surface temperature of 15 °C, outside 0 to 10 °C" in cold.outside
+    busy = field_years(life, road, replace(LTPP, traffic=(1e3, 5e4)))
+    assert "traffic of 58.6 thousand standard axles a year, outside 1 to 50" in busy.outside
+    assert "the mechanics alone" in busy.summary()
+    assert field_years(life, road, LTPP).outside == ""
 
 
 def test_what_cannot_be_shifted_is_refused(tmp_path):
@@ -131,7 +164,12 @@ def test_what_cannot_be_shifted_is_refused(tmp_path):
 
 def test_a_shift_of_a_file(tmp_path):
     lines = [f"{name} = {value!r}" for name, value in vars(LTPP).items() if not isinstance(value, tuple)]
-    lines += ["thickness = [0.1, 0.3]", "mean_air = [0.0, 20.0]"]
+    lines += [
+        "thickness = [0.1, 0.3]",
+        "mean_air = [0.0, 20.0]",
+        "mean_surface = [1.0, 24.0]",
+        "traffic = [1e4, 1e6]",
+    ]
     (tmp_path / "ours.toml").write_text("\n".join(lines))
     (shift,) = read_field_shifts(tmp_path / "ours.toml")
     assert isinstance(shift, FieldShift)

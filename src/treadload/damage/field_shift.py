@@ -36,8 +36,10 @@ class FieldShift:
     date: of the fit. level: median age, years; level_error: standard error of its ln. scatter: standard deviation of
     ln age over roads; scatter_error: its standard error. lag: mean years from crack to overlay. predicted_fresh,
     predicted_aged: geometric means over the sections of the years that the mechanics predict at the surface, by the
-    `LINES`. thickness: of the asphalt, m, and mean_air: °C, within which the shift holds. source: of the data.
-    doubts: what is not certain, a sentence each. Raises InputError.
+    `LINES`. thickness: of the asphalt, m, mean_surface: of the road's surface over the year, °C, and traffic:
+    standard axles of 80 kN a year, within which the shift holds. mean_air: of the sections' air over the year, °C,
+    from which mean_surface follows by the priors. source: of the data. doubts: what is not certain, a sentence each.
+    Raises InputError.
     """
 
     name: str
@@ -54,13 +56,15 @@ class FieldShift:
     predicted_aged: float
     thickness: tuple[float, float]
     mean_air: tuple[float, float]
+    mean_surface: tuple[float, float]
+    traffic: tuple[float, float]
     source: str = field(default="", repr=False)
     doubts: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         for name in ("level", "level_error", "scatter", "predicted_fresh", "predicted_aged"):
             positive(f"{name} of the field shift {self.name!r}", getattr(self, name))
-        for name in ("thickness", "mean_air"):
+        for name in ("thickness", "mean_air", "mean_surface", "traffic"):
             low, high = getattr(self, name)
             if not low < high:
                 raise InputError(
@@ -122,12 +126,19 @@ class FieldShift:
             "and forecast no years at the surface"
         )
 
-    def outside(self, thickness: float | None = None, mean_air: float | None = None) -> str:
-        """Why a road is not of this kind, in words; "" where it is. thickness: of the asphalt, m. mean_air: °C."""
+    def outside(
+        self, thickness: float | None = None, mean_surface: float | None = None, traffic: float | None = None
+    ) -> str:
+        """Why a road is not of this kind, in words; "" where it is.
+
+        thickness: of the asphalt, m. mean_surface: of the road's surface over the year, °C. traffic: standard axles
+        of 80 kN a year.
+        """
         reasons = []
         for value, (low, high), scale, unit, what in (
             (thickness, self.thickness, 1e3, "mm", "asphalt"),
-            (mean_air, self.mean_air, 1.0, "°C", "mean temperature"),
+            (mean_surface, self.mean_surface, 1.0, "°C", "mean surface temperature"),
+            (traffic, self.traffic, 1e-3, "thousand standard axles a year", "traffic"),
         ):
             if value is not None and not low <= value <= high:
                 reasons.append(

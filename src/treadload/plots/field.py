@@ -20,12 +20,6 @@ _MODEL, _PLAIN, _SEEN = CASES[0], CASES[1], INK
 _OLDEST = 30.0
 
 
-def _middles(cells: np.ndarray) -> np.ndarray:
-    """Middle ages of the classes "3 to 6 years"; NaN of others."""
-    parts = [str(name).split() for name in cells]
-    return np.array([0.5 * (float(p[0]) + float(p[2])) if len(p) == 4 and p[1] == "to" else np.nan for p in parts])
-
-
 def _share_error(share: np.ndarray, count: np.ndarray) -> np.ndarray:
     """Standard error of a share of so many sections, binomial; the variance of a section is 0.05 at least."""
     return np.asarray(np.sqrt(np.clip(share * (1 - share), 0.05, None) / np.maximum(count, 1)))
@@ -41,7 +35,7 @@ def field_shares(bench: Source, *, ax: Axes | None = None) -> Figure:
 
     bench: a FieldBench or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
-    data = fields_of(bench, "cracked_share", "seen_share", "cell_sections")
+    data = fields_of(bench, "cracked_share", "seen_share", "cell_sections", "cell_age")
     figure, ax = figure_and_axes(ax, 7.6, 4.4)
     age = data["age"].to_numpy()
     low, high = (100 * data[f"cracked_share_{end}"].to_numpy() for end in ("low", "high"))
@@ -52,7 +46,7 @@ def field_shares(bench: Source, *, ax: Axes | None = None) -> Figure:
     (naive,) = ax.plot(
         age, 100 * data["cracked_share_plain"], "--", color=_PLAIN, label="plain fit, as if none were overlaid"
     )
-    middles = _middles(data["cell"].to_numpy())
+    middles = data["cell_age"].to_numpy()
     at = ~np.isnan(middles)
     error = 100 * data["share_error"].to_numpy()[at]
     shares = 100 * data["seen_share"].to_numpy()[at]
@@ -196,9 +190,9 @@ def field_look_shares(look: Source, *, ax: Axes | None = None) -> Figure:
 
     look: a FieldLook or its dataset. Returns the figure. Raises InputError if variables are missing.
     """
-    data = fields_of(look, "seen_share", "cell_sections")
+    data = fields_of(look, "seen_share", "cell_sections", "cell_age")
     figure, ax = figure_and_axes(ax, 6.8, 3.8)
-    middles, counts = _middles(data["cell"].to_numpy()), data["cell_sections"].to_numpy()
+    middles, counts = data["cell_age"].to_numpy(), data["cell_sections"].to_numpy()
     handles: list[Any] = []
     for number, event in enumerate(map(str, data["event"].to_numpy())):
         share = data["seen_share"].to_numpy()[number]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 import time
 from collections.abc import Callable, Mapping
@@ -45,6 +46,7 @@ def field_look(table: Table) -> FieldLook:
         {
             "cell_sections": (dims, np.array([[row[1] for row in cells] for cells in rows.values()], dtype=float)),
             "seen_share": (dims, np.array([[row[2] for row in cells] for cells in rows.values()])),
+            "cell_age": (("cell",), np.array([row[3] for row in next(iter(rows.values()))])),
         },
         {"event": list(rows), "cell": [row[0] for row in next(iter(rows.values()))]},
         table=sections.name,
@@ -94,6 +96,7 @@ def field_bench(
     fields, texts = _fits(fits), {"cells": in_words(cells)}
     fields |= _scores(folds) | _curves(best, fits[event]["plain"])
     fields |= {
+        "cell_age": (("cell",), np.array([cell.age for cell in cells])),
         "cell_sections": (("cell",), np.array([float(cell.count) for cell in cells])),
         "seen_share": (("cell",), np.array([cell.seen for cell in cells])),
         "predicted_share": (("cell",), np.array([cell.predicted for cell in cells])),
@@ -116,8 +119,8 @@ def field_bench(
     count.after(None, "profile")
     attributes = {
         "table": sections.name, "sections": len(sections), "event": event, "source": sections.source,
-        "thickness_range": json.dumps([float(v) for v in np.nanpercentile(sections.thickness, [5, 95])]),
-        "mean_air_range": json.dumps([float(v) for v in np.nanpercentile(sections.mean_air, [5, 95])]),
+        "thickness_range": _range(sections.thickness), "mean_air_range": _range(sections.mean_air),
+        "traffic_range": _range(sections.traffic),
         "about": json.dumps(mechanics.about if mechanics else (), ensure_ascii=False), **texts, **numbers,
     }  # fmt: skip
     coordinates = {
@@ -240,3 +243,9 @@ def _mechanics(
         fields["variant_profile"] = (("variant",), np.array(values))
         places["variant"] = names
     return fields, numbers, places
+
+
+def _range(values: Array) -> str:
+    """5 and 95 % of the values of sections, in JSON; without bounds where the table has none."""
+    known = values[np.isfinite(values)]
+    return json.dumps([float(v) for v in np.percentile(known, [5, 95])] if len(known) else [-math.inf, math.inf])

@@ -29,15 +29,15 @@ LEAST = 0.15
 """Difference of an age class that is always allowed."""
 
 
-def looked_at(table: SectionTable, event: Event) -> list[tuple[str, int, float]]:
-    """Name, sections and share cracked so far of every class of age, without any model."""
+def looked_at(table: SectionTable, event: Event) -> list[tuple[str, int, float, float]]:
+    """Name, sections, share cracked so far and middle age, years, of every class of age, without any model."""
     high = table.interval(event).high
     rows = []
     for low, end in pairwise(AGE_CLASSES):
         latest = [max((age for age in ages if low <= age < end), default=math.nan) for ages in table.surveys]
         at = ~np.isnan(latest)
         share = float(np.mean(high[at] <= np.array(latest)[at])) if at.any() else math.nan
-        rows.append((f"{low:g} to {end:g} years", int(at.sum()), share))
+        rows.append((f"{low:g} to {end:g} years", int(at.sum()), share, 0.5 * (low + end)))
     return rows
 
 

@@ -24,7 +24,7 @@ from treadload.pavement import Layer, Pavement, divided
 from treadload.pavement.heating import Heat, road_temperatures
 from treadload.pavement.weather import Weather
 from treadload.tire import Belt, Tire
-from treadload.units import Force, Kelvin, Length, Modulus, Number, Pressure, Years, quantity
+from treadload.units import PSI, Force, Kelvin, Length, Modulus, Number, Pressure, Years, quantity
 
 FAMILIES = ("ACUB", "ACATB", "ACTB")
 """Untreated base, asphalt-treated base, base treated otherwise: the families of LTPP's GPS experiments."""
@@ -32,7 +32,6 @@ SURFACE, BOTTOM = "surface", "bottom"
 """Criteria of a section: a crack from the surface down, one from the bottom of the asphalt up."""
 # Asphalt of LTPP's sections, m; more than a tenth outside is a unit by mistake.
 _THINNEST, _THICKEST = 0.010, 0.60
-_PSI = 6894.757
 
 
 @dataclass(frozen=True)
@@ -91,8 +90,8 @@ class Priors:
     tire: str = "315/80R22.5"
     steering_load: Force = 53e3
     tandem_load: Force = 133e3
-    steering_pressure: Pressure = 120 * _PSI
-    tandem_pressure: Pressure = 110 * _PSI
+    steering_pressure: Pressure = 120 * PSI
+    tandem_pressure: Pressure = 110 * PSI
     axles_per_truck: Number = 1.5
     missing_traffic: dict[Length, Number] = field(default_factory=lambda: {0.0: 83e3, 0.10: 96e3, 0.18: 171e3})
     deviation: Length = 0.25
@@ -204,6 +203,12 @@ class Priors:
         ageing = GlobalAging(self.age, section.mean_air) if self.age > 0 else None
         climate = Climate.of_road(road, warm, parts=self.parts_of_day, ageing=ageing)
         return replace(climate, thermal=Thermal() if self.thermal else None)
+
+    def mean_surface(self, mean_air: float) -> float:
+        """Of a road's surface over the year below air of a mean temperature, °C."""
+        section = RoadSection("range", 0.15, FAMILIES[0], None, mean_air)
+        seasons = self.climate(section, self.road(section)).seasons
+        return float(sum(season.share * season.temperatures[0] for season in seasons) / sum(s.share for s in seasons))
 
     def criteria(self, road: Pavement) -> tuple[Criterion, ...]:
         """The young line at the surface; half of roads by the French method at the bottom of the lowest asphalt."""

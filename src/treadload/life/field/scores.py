@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
@@ -91,7 +92,8 @@ def score_on(unseen: Sections, fitted: Fit) -> float:
 class Cell:
     """Share cracked so far in a class of sections, seen and predicted for unseen folds.
 
-    name: of the class. count: sections. seen, predicted: shares. error: standard error of the share seen.
+    name: of the class. count: sections. seen, predicted: shares. error: standard error of the share seen. age: middle
+    of a class of age, years; NaN of other classes.
     """
 
     name: str
@@ -99,6 +101,7 @@ class Cell:
     seen: float
     predicted: float
     error: float
+    age: float = math.nan
 
 
 def shares(folds: Folds, surveys: Sequence[Array], ages: Sequence[float], rows: IntArray | None = None) -> list[Cell]:
@@ -120,7 +123,8 @@ def shares(folds: Folds, surveys: Sequence[Array], ages: Sequence[float], rows: 
         predicted = folds.by_distribution(whole)[at]
         seen = float((high[at] <= age).mean())
         error = float(np.sqrt(np.mean(predicted) * (1 - np.mean(predicted)) / len(at)))
-        cells.append(Cell(f"{low:g} to {end:g} years", len(at), seen, float(predicted.mean()), error))
+        middle = 0.5 * (low + end)
+        cells.append(Cell(f"{low:g} to {end:g} years", len(at), seen, float(predicted.mean()), error, middle))
     return cells
 
 

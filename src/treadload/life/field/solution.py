@@ -16,6 +16,7 @@ from treadload.damage.field_shift import UNSUPPORTED, FieldShift
 from treadload.errors import InputError
 from treadload.life.field.fit import DROP
 from treadload.life.field.likelihood import KINDS, WHY_LATE, Parameters, Sections, log_likelihood
+from treadload.life.field.priors import Priors
 from treadload.life.field.scores import Gain
 from treadload.life.field.table import FEWEST, Event, SectionTable
 from treadload.rows import Row, row
@@ -51,7 +52,7 @@ class FieldLook(BaseResult, group="field_look"):
     title: ClassVar[str] = "Road sections"
     subject: ClassVar[str] = "What a table of road sections shows"
     holds: ClassVar[Holds] = Holds(
-        {"cell_sections seen_share": "event cell"},
+        {"cell_sections seen_share": "event cell", "cell_age": "cell"},
         labels={"event": "event", "cell": "cell"},
         texts="table",
         numbers="sections",
@@ -97,7 +98,7 @@ class FieldBench(BaseResult, group="field_bench"):
         {
             **dict.fromkeys([" ".join(f"crack_{name}" for name in _EACH)], "event likelihood"),
             "log_score score_gain score_gain_error": "model",
-            "cell_sections seen_share predicted_share share_error": "cell",
+            "cell_age cell_sections seen_share predicted_share share_error": "cell",
             "cracked_share cracked_share_low cracked_share_high cracked_share_plain": "age",
             "age": "age",
             "entry_age entry_sections entry_seen entry_predicted entry_plain entry_level": "entry",
@@ -118,7 +119,7 @@ class FieldBench(BaseResult, group="field_bench"):
         together=("power power_low power_high mechanics_level field_factor",),
         texts="table event cells source",
         lists="about",
-        json={"thickness_range": list, "mean_air_range": list},
+        json={"thickness_range": list, "mean_air_range": list, "traffic_range": list},
         stats=("fits seconds",),
         agree=lambda data: _check(data),
     )
@@ -144,8 +145,11 @@ class FieldBench(BaseResult, group="field_bench"):
         sections = Sections(table.interval(self.event), table.entry, np.zeros(len(table)))
         return float(log_likelihood(sections, self.parameters(), "overlay-lag").sum())
 
-    def shift(self, name: str, date: str) -> FieldShift:
-        """A field shift of this bench. name: of the shift. date: of the fit.
+    def shift(self, name: str, date: str, priors: Priors | None = None) -> FieldShift:
+        """A field shift of this bench.
+
+        name: of the shift. date: of the fit. priors: by which its range of air temperature becomes one of the
+        surface; left out, the defaults.
 
         Raises InputError for a bench without mechanics.
         """
@@ -154,14 +158,15 @@ class FieldBench(BaseResult, group="field_bench"):
             raise InputError("a field shift needs ages of the mechanics by both lines; give predictions to the bench")
         at = self._fit(None, "overlay-lag")
         low, high = json.loads(data.attrs["thickness_range"])
-        cold, warm = json.loads(data.attrs["mean_air_range"])
+        air, traffic = (json.loads(data.attrs[f"{key}_range"]) for key in ("mean_air", "traffic"))
+        cold, warm = ((priors or Priors()).mean_surface(end) if math.isfinite(end) else end for end in air)
         level, scatter = float(at["crack_level"]), float(at["crack_scatter"])
         return FieldShift(
             name, EVENT_IN_WORDS[self.event], "interval-censored lognormal age, conditional on no overlay before the "
             "first survey, with an exponential lag from crack to overlay", int(data.attrs["sections"]), date,
             level, float(at["crack_level_error"]), scatter, float(at["crack_scatter_error"]) * scatter,
             float(at["crack_lag"]), float(data.attrs["mechanics_level"]), float(data.attrs["predicted_aged"]),
-            (low, high), (cold, warm), str(data.attrs["source"]),
+            (low, high), tuple(air), (cold, warm), tuple(traffic), str(data.attrs["source"]),
         )  # fmt: skip
 
     def _fit(self, event: Event | None, likelihood: str) -> xr.Dataset:

@@ -14,6 +14,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.damage.field_shift import UNSUPPORTED, FieldShift
 from treadload.damage.life import Life
 from treadload.errors import InputError
+from treadload.life.field.standard_axles import standard_axles
 from treadload.pavement import Pavement
 from treadload.pavement.asphalt import bituminous_thickness
 from treadload.rows import Row, row
@@ -81,7 +82,8 @@ def field_years(life: Life, road: Pavement, shift: FieldShift) -> FieldYears:
     """Years of roads by a named shift, for every criterion of a life that reads tensile strain at the surface.
 
     The median is the predicted life by the line of a young mix times the shift's factor; 5 and 95 % are of the
-    scatter of roads. Outside the range of the shift the mechanics stand alone. Raises InputError for a life without
+    scatter of roads. Outside the range of the shift (asphalt, mean temperature of the surface, standard axles of the
+    first year) the mechanics stand alone. Raises InputError for a life without
     such a criterion.
     """
     names = list(json.loads(life.dataset.attrs.get("surface_lines", "{}")))
@@ -91,7 +93,8 @@ def field_years(life: Life, road: Pavement, shift: FieldShift) -> FieldYears:
             'tensile strain there; add one, place = "top" of layer 1'
         )
     mechanics = life.dataset["life_years_fresh_line"].sel(criterion=names).to_numpy()
-    outside = shift.outside(bituminous_thickness(road, 0), _mean_temperature(life))
+    traffic = standard_axles(life.traffic)
+    outside = shift.outside(bituminous_thickness(road, 0), _mean_surface(life), traffic)
     years = [
         [np.nan if outside else shift.shifted(float(predicted), share) for share in SHARES] for predicted in mechanics
     ]
@@ -106,7 +109,7 @@ def field_years(life: Life, road: Pavement, shift: FieldShift) -> FieldYears:
     return FieldYears(data, shift, outside, warnings=(*caveats, *shift.doubts[1:]))
 
 
-def _mean_temperature(life: Life) -> float:
-    """Of the surface over the year, °C; that of the air is a few kelvins lower."""
+def _mean_surface(life: Life) -> float:
+    """Of the road's surface over the year, °C: of the top layer where a season has no temperature over depth."""
     seasons = life.climate.seasons
     return float(sum(season.share * season.temperatures[0] for season in seasons) / sum(s.share for s in seasons))
