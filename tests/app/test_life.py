@@ -46,9 +46,9 @@ def test_parts_are_shown_as_they_come_in_the_digits_of_the_summary(solved):
     for name in parts[0]["criteria"]:
         assert told[f"life_years:{name}"] == years_in_words(result.life.years(name))
         assert told[f"life_years:{name}"] in summary
-    who = [float(value.split()[0]) for key, value in told.items() if key.startswith("who:")]
+    by_class = [float(value.split()[0]) for key, value in told.items() if key.startswith("by_class:")]
     # Of three classes, each rounded to one per cent, those below half a per cent left out.
-    assert sum(who) == pytest.approx(100, abs=2.5)
+    assert sum(by_class) == pytest.approx(100, abs=2.5)
     assert told["solved"].startswith(f"{result.life.stats['contacts']} contacts")
     assert any(row["heading"] == "Sensitivity" for row in parts[-1]["rows"])
     for name, picture in parts[0]["pictures"].items():
