@@ -37,7 +37,7 @@ def intervals(model: Model, target: Target, fits: Fitted, deviation: Array, reac
     count = max(1, _BLOCK * 100 // model.size)
     for start in range(0, len(fits.x), count):
         at = np.arange(start, min(start + count, len(fits.x)))
-        at = at[np.isfinite(reach[at])]
+        at = at[np.isfinite(reach[at]) & (reach[at] > 0)]
         if len(at):
             at = at[bent(model.rows(at), target.rows(at), fits.x[at], deviation[at], reach[at])]
         if len(at):

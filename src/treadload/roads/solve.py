@@ -92,7 +92,8 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
             sure = certainty(sought, measured[row], sizes, fitted, row, error, width[chosen])
             stated = error.stated or sure.scatter == 1.0 or not sure.freedom > 0
             reach[row] = quantile(LEVEL, sure.freedom, stated=stated) * sure.scatter
-            linear[row] = sure.deviations / sure.scatter
+            # A fit without any residual has no scatter, and intervals without width.
+            linear[row] = sure.deviations / (sure.scatter or 1.0)
             caveats = [flags[drop]] * bool(flags[drop]) + list(sure.caveats)
             caveats += _at_bounds(unknowns, chosen, fitted.at_bound[row])
             if not fitted.converged[row]:
