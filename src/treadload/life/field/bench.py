@@ -247,5 +247,5 @@ def _mechanics(
 
 def _range(values: Array) -> str:
     """5 and 95 % of the values of sections, in JSON; without bounds where the table has none."""
-    known = values[np.isfinite(values)]
-    return json.dumps([float(v) for v in np.percentile(known, [5, 95])] if len(known) else [-math.inf, math.inf])
+    finite = values[np.isfinite(values)]
+    return json.dumps([float(v) for v in np.percentile(finite, [5, 95])] if len(finite) else [-math.inf, math.inf])
