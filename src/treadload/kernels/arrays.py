@@ -9,5 +9,9 @@ Array = NDArray[np.floating[Any]]
 ComplexArray = NDArray[np.complexfloating[Any, Any]]
 Numbers = NDArray[np.inexact[Any]]
 """Real or complex, as what it is made of."""
+Reals = Array | float
+"""A number for each of some points, or the number that stands for all of them."""
+Values = Numbers | complex
+"""As `Reals`, real or complex."""
 IntArray = NDArray[np.integer[Any]]
 BoolArray = NDArray[np.bool_]

@@ -13,13 +13,15 @@ import os
 from collections.abc import Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import Any
+from types import ModuleType
+from typing import TypeVar, cast
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy import fft as _scipy
 from scipy.fft import fftfreq, next_fast_len, rfftfreq
 
-from treadload.kernels.arrays import Numbers
+from treadload.kernels.arrays import Array, ComplexArray, Numbers
 
 __all__ = [
     "cosine2", "cosines", "device", "fft", "fftfreq", "ifft", "irfft", "irfft2", "mirrored_waves", "namespace",
@@ -29,16 +31,19 @@ __all__ = [
 # Numbers that are transformed at once: what a processor's cache holds, what a GPU keeps busy with.
 _AT_ONCE, _AT_ONCE_ELSEWHERE = 2**17, 2**27
 
-_chosen: ContextVar[Any] = ContextVar("treadload_array_library", default=None)
+Kind = TypeVar("Kind", bound=NDArray[np.generic])
+Floats = TypeVar("Floats", bound=Numbers)
+
+_chosen: ContextVar[ModuleType | None] = ContextVar("treadload_array_library", default=None)
 
 
-def namespace(array: Any) -> Any:
+def namespace(array: NDArray[np.generic]) -> ModuleType:
     """The functions of the library that an array belongs to."""
     # NumPy 1.26 has what the loops use, but not the method.
     return np if isinstance(array, np.ndarray) else array.__array_namespace__()
 
 
-def device() -> Any:
+def device() -> ModuleType:
     """The library whose arrays the loops run on: NumPy, or that of TREADLOAD_DEVICE, or that of `on`.
 
     Raises ValueError for a device that there is not.
@@ -57,11 +62,12 @@ def device() -> Any:
         raise ValueError(
             "TREADLOAD_DEVICE is 'cuda', and CuPy is not installed; install cupy-cuda12x or leave the variable out"
         ) from missing
-    return cupy
+    library: ModuleType = cupy
+    return library
 
 
 @contextmanager
-def on(library: object) -> Iterator[None]:
+def on(library: ModuleType) -> Iterator[None]:
     """Loops inside run on the arrays of a library that follows the standard, whatever TREADLOAD_DEVICE says."""
     token = _chosen.set(library)
     try:
@@ -70,66 +76,78 @@ def on(library: object) -> Iterator[None]:
         _chosen.reset(token)
 
 
-def to_device(array: object) -> Any:
+def to_device(array: Kind) -> Kind:
     """An array of `device`."""
-    return device().asarray(array)
+    placed: Kind = device().asarray(array)
+    return placed
 
 
-def to_host(array: Any) -> Any:
+def to_host(array: Kind) -> Kind:
     """A NumPy array."""
     if isinstance(array, np.ndarray):
         return array
-    return array.get() if hasattr(array, "get") else np.array(np.from_dlpack(array))
+    return cast("Kind", array.get() if hasattr(array, "get") else np.array(np.from_dlpack(array)))
 
 
-def portions(array: object, lines: int, length: int) -> Iterator[slice]:
+def portions(array: NDArray[np.generic], lines: int, length: int) -> Iterator[slice]:
     """Slices that share out some lines, so many at a time as are best transformed at once, each of some length."""
     step = max(1, (_AT_ONCE if isinstance(array, np.ndarray) else _AT_ONCE_ELSEWHERE) // length)
     for first in range(0, lines, step):
         yield slice(first, min(first + step, lines))
 
 
-def fft(x: object, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+def fft(x: Numbers, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> ComplexArray:
     """As SciPy's; arrays of other libraries are not overwritten."""
     if isinstance(x, np.ndarray):
-        return _scipy.fft(x, n=n, axis=axis, overwrite_x=overwrite_x)
-    return namespace(x).fft.fft(x, n=n, axis=axis)
+        waves: ComplexArray = _scipy.fft(x, n=n, axis=axis, overwrite_x=overwrite_x)
+    else:
+        waves = namespace(x).fft.fft(x, n=n, axis=axis)
+    return waves
 
 
-def ifft(x: object, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> Any:
+def ifft(x: Numbers, n: int | None = None, axis: int = -1, overwrite_x: bool = False) -> ComplexArray:
     """As SciPy's; arrays of other libraries are not overwritten."""
     if isinstance(x, np.ndarray):
-        return _scipy.ifft(x, n=n, axis=axis, overwrite_x=overwrite_x)
-    return namespace(x).fft.ifft(x, n=n, axis=axis)
+        values: ComplexArray = _scipy.ifft(x, n=n, axis=axis, overwrite_x=overwrite_x)
+    else:
+        values = namespace(x).fft.ifft(x, n=n, axis=axis)
+    return values
 
 
-def rfft(x: object, n: int | None = None, axis: int = -1) -> Any:
+def rfft(x: Array, n: int | None = None, axis: int = -1) -> ComplexArray:
     """As SciPy's."""
-    return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).rfft(x, n=n, axis=axis)
+    waves: ComplexArray = (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).rfft(x, n=n, axis=axis)
+    return waves
 
 
-def irfft(x: object, n: int | None = None, axis: int = -1) -> Any:
+def irfft(x: Numbers, n: int | None = None, axis: int = -1) -> Array:
     """As SciPy's."""
-    return (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).irfft(x, n=n, axis=axis)
+    values: Array = (_scipy if isinstance(x, np.ndarray) else namespace(x).fft).irfft(x, n=n, axis=axis)
+    return values
 
 
-def rfft2(x: Any, s: tuple[int, int] | None = None) -> Any:
+def rfft2(x: Array, s: tuple[int, int] | None = None) -> ComplexArray:
     """As SciPy's, over the last two axes."""
     if isinstance(x, np.ndarray):
-        return _scipy.rfft2(x, s=s)
-    return namespace(x).fft.rfftn(x, s=x.shape[-2:] if s is None else s, axes=(-2, -1))
+        waves: ComplexArray = _scipy.rfft2(x, s=s)
+    else:
+        waves = namespace(x).fft.rfftn(x, s=x.shape[-2:] if s is None else s, axes=(-2, -1))
+    return waves
 
 
-def irfft2(x: object, s: tuple[int, int]) -> Any:
+def irfft2(x: ComplexArray, s: tuple[int, int]) -> Array:
     """As SciPy's, over the last two axes."""
     if isinstance(x, np.ndarray):
-        return _scipy.irfft2(x, s=s)
-    return namespace(x).fft.irfftn(x, s=s, axes=(-2, -1))
+        values: Array = _scipy.irfft2(x, s=s)
+    else:
+        values = namespace(x).fft.irfftn(x, s=s, axes=(-2, -1))
+    return values
 
 
-def cosine2(quadrant: object) -> Any:
+def cosine2(quadrant: Floats) -> Floats:
     """The transform (ny, nx) of what is even both ways about both ends of a quadrant (ny, nx), of which it is one."""
-    return _scipy.dctn(quadrant, type=1)
+    waves: Floats = _scipy.dctn(quadrant, type=1)
+    return waves
 
 
 def sine2(quadrant: Numbers) -> Numbers:
@@ -140,14 +158,16 @@ def sine2(quadrant: Numbers) -> Numbers:
     return result
 
 
-def mirrored_waves(field: object, *, back: bool = False) -> Any:
+def mirrored_waves(field: Floats, *, back: bool = False) -> Floats:
     """The cosine waves (ny, nx) of a field (ny, nx) that is mirrored in the borders of its cells; back: the field."""
-    return _scipy.idctn(field, type=2) if back else _scipy.dctn(field, type=2)
+    turned: Floats = _scipy.idctn(field, type=2) if back else _scipy.dctn(field, type=2)
+    return turned
 
 
-def cosines(half: object, n: int, axis: int = -1) -> Any:
+def cosines(half: Floats, n: int, axis: int = -1) -> Floats:
     """The transform (n + 1 numbers) of what is even about 0, zero from n on, and repeats after 2 n, from its half."""
-    return _scipy.dct(half, type=1, n=n + 1, axis=axis)
+    waves: Floats = _scipy.dct(half, type=1, n=n + 1, axis=axis)
+    return waves
 
 
 def sines(half: Numbers, n: int, axis: int = -1) -> Numbers:

@@ -15,7 +15,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -99,7 +98,7 @@ def paired(symbols: Array) -> Array:
     return np.repeat(symbols, 2, axis=-1)
 
 
-def four(symbols: Any) -> tuple[Any, Any, Any, Any]:
+def four(symbols: Array | ComplexArray) -> tuple[Array, Array, Array, Array]:
     """Symbols xx, yy, xy and yx of a compliance that has three, of which the last counts twice, or four."""
     return symbols[0], symbols[1], symbols[2], symbols[-1]
 

@@ -16,9 +16,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Any
 
 import numpy as np
+from numpy.typing import DTypeLike
 
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray
@@ -154,11 +154,11 @@ class _Inner:
     level: float
     goal: float
     self_influence: float
-    real: Any
+    real: DTypeLike
     counts: _Counts
 
     @property
-    def xp(self) -> Any:
+    def xp(self) -> ModuleType:
         """The functions of the arrays' library."""
         return fft.namespace(self.h)
 

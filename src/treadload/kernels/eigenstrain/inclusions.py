@@ -14,7 +14,6 @@ Source: Eshelby (1957), Proc. R. Soc. A 241, 376, for the equivalence; Moschovid
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy.sparse.linalg import LinearOperator, cg, minres
@@ -68,7 +67,7 @@ def equivalent(
     )
     used = 0
 
-    def isotropic(parts: Any, tensor: Array) -> Array:
+    def isotropic(parts: tuple[Array, Array], tensor: Array) -> Array:
         """A factor of the mean and one of the deviator, applied to (6, n)."""
         mean = tensor[:3].sum(axis=0) / 3
         result: Array = parts[1] * tensor

@@ -24,7 +24,7 @@ from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, Numbers
 from treadload.kernels.eigenstrain.averages import NEAR, average
 from treadload.kernels.eigenstrain.corners import displacement_kernels, stress_kernels
 from treadload.kernels.eigenstrain.potentials import coefficients
@@ -330,7 +330,7 @@ def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], 
     _, ny, nx = grid.shape
     ly, lx = next_fast_len(ny), next_fast_len(nx)
 
-    def transformed(kernels: Array) -> Any:
+    def transformed(kernels: Array) -> Numbers:
         result = np.empty((*kernels.shape[:3], ly + 1, lx + 1), complex)
         whole = np.zeros((*kernels.shape[2:4], 2 * lx))
         for row, column in np.ndindex(kernels.shape[:2]):
@@ -352,7 +352,7 @@ def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], 
 
 def _gathered(
     rows: Rows,
-    transformed: Callable[[Array], Array],
+    transformed: Callable[[Array], Numbers],
     grid: Grid,
     depths: int,
     count: int,
@@ -367,7 +367,7 @@ def _gathered(
     return matrices.reshape(*waves, count * depths, 6 * layers)
 
 
-def _signs(odd_y: BoolArray, depths: int, grid: Grid, kind: Any) -> tuple[Array, Array]:
+def _signs(odd_y: BoolArray, depths: int, grid: Grid, kind: type[np.floating[Any]]) -> tuple[Array, Array]:
     return (
         np.repeat(np.where(odd_y, -1, 1), depths).astype(kind),
         np.repeat(np.where(_ODD_Y, -1, 1), len(grid.depths)).astype(kind),

@@ -19,7 +19,6 @@ import itertools
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -110,16 +109,16 @@ def _along(c: Array, s: Array, source: float, a: int, b: int, n: int) -> Numbers
     return -2 * math.pi * (1j * c) ** a * (1j * s) ** b * along
 
 
-def _waves_of_source(full: Array, c: Array, s: Array, source: float) -> Any:
+def _waves_of_source(full: Array, c: Array, s: Array, source: float) -> Numbers:
     """Stress (6, 6, directions) in waves of k = 1 at the plane of the surface in an endless body."""
-    waves: Any = full @ np.array([_along(c, s, source, *powers) for powers in FOURTH])
+    waves: Numbers = full @ np.array([_along(c, s, source, *powers) for powers in FOURTH])
     return waves
 
 
-def _moved_by_source(nu: float, c: Array, s: Array) -> list[Any]:
+def _moved_by_source(nu: float, c: Array, s: Array) -> list[Numbers]:
     """Displacement (3, 6, directions), likewise, under sources at depths 0 and 1."""
     stiffness = _stiffness(nu)
-    results = []
+    results: list[Numbers] = []
     for source in (0.0, 1.0):
         moved = np.zeros((3, 6, len(c)), complex)
 

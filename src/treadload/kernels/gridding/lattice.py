@@ -11,13 +11,13 @@ import math
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from treadload.kernels import fft
-from treadload.kernels.arrays import Array, BoolArray, ComplexArray
+from treadload.kernels.arrays import Array, BoolArray, ComplexArray, Reals
 
 # Output coordinates whose place within a cell differs by less than this part of a cell share a lattice.
 _SAME_PLACE = 1e-6
@@ -32,18 +32,19 @@ _SPARSE = 0.9
 
 Indices = NDArray[np.integer[Any]]
 Use = tuple[int, int]
-Corner = tuple[Array, tuple[Use, ...]]
+Corner = tuple[Reals, tuple[Use, ...]]
+Cell = tuple[Array, tuple[Use, ...]]
 Corners = Callable[[Array, Array, float], Iterator[Corner]]
 """(x, y, z) from a corner, m → functions, broadcast from x and y, each with the (load, component) pairs it serves.
 
 x and y are a row and a column of a grid, or both (n,), of corners one by one. A plain number stands for a function
 that is the same everywhere, of which no cell has a field.
 """
-AtDepth = Callable[..., Iterator[Corner]]
+Function = TypeVar("Function", Array, Reals)
 OnLattice = Callable[..., Array]
 Spectrum = tuple[ComplexArray, tuple[Use, ...]]
 """The transform of the field of one cell, and the (load, component) pairs that it serves."""
-Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Corner]]
+Kernels = Callable[[Array, Array, tuple[int, int], float], Iterator[Cell]]
 """(x, y, (m, n), z) → fields of one cell, (b, m, a, n), each with the (load, component) pairs it serves.
 
 Offsets from its centre, m: x[a], x[a] + dx, … n of them, and y[b], y[b] + dy, … m of them.
@@ -75,19 +76,19 @@ class _OfCorners:
     dx: float
     dy: float
 
-    def __call__(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+    def __call__(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Cell]:
         for ends, uses in self.at_corners(x, y, shape, z):
             lines = ends[..., 1:] - ends[..., :-1]
             yield lines[:, 1:] - lines[:, :-1], uses
 
-    def at_corners(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+    def at_corners(self, x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Cell]:
         """The functions at the corners (b, m + 1, a, n + 1) of the cells at these offsets."""
         m, n = shape
         # Neighbouring offsets share their corners: one more corner than offsets each way.
         corner_x = (x[:, None] + self.dx * (np.arange(n + 1) - 0.5)).reshape(1, -1)
         corner_y = (y[:, None] + self.dy * (np.arange(m + 1) - 0.5)).reshape(-1, 1)
         for values, uses in self.corners(corner_x, corner_y, z):
-            if np.ndim(values):
+            if isinstance(values, np.ndarray):
                 yield values.reshape(len(y), m + 1, len(x), n + 1), uses
 
 
@@ -96,7 +97,9 @@ def of_corners(corners: Corners, dx: float, dy: float) -> Kernels:
     return _OfCorners(corners, dx, dy)
 
 
-def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth, Array]:
+def over_depths(
+    functions: Callable[..., Iterator[tuple[Function, tuple[Use, ...]]]], depths: Array, mean: Array
+) -> tuple[Callable[..., Iterator[tuple[Function, tuple[Use, ...]]]], Array]:
     """`Corners` or `Kernels` whose depths stand for sums over several, and the depths that stand for them.
 
     depths: (n,), m. mean: weights (rows, n) of each in the sums. Returns as well (rows,), the shallowest of each.
@@ -110,8 +113,9 @@ def over_depths(functions: AtDepth, depths: Array, mean: Array) -> tuple[AtDepth
             depth = math.nextafter(depth, math.inf)
         stand.append(depth)
 
-    def summed(*at: Any) -> Iterator[Corner]:
+    def summed(*at: Array | tuple[int, int] | float) -> Iterator[tuple[Function, tuple[Use, ...]]]:
         *place, z = at
+        assert isinstance(z, float)
         if len(sums[z]) == 1 and sums[z][0][0] == 1:
             yield from functions(*at)
             return
@@ -182,7 +186,7 @@ def from_afar(
     (spread_y, point_y), (spread_x, point_x) = _between_coarse(my), _between_coarse(mx)
     wide, high = _COARSE * source.dx, _COARSE * source.dy
 
-    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+    def kernels(x: Array, y: Array, shape: tuple[int, int], z: float) -> Iterator[Cell]:
         each_y, each_x = (
             at[0] + step * np.arange(n) for at, step, n in zip((y, x), (high, wide), shape, strict=True)
         )
@@ -307,8 +311,10 @@ def _summed_where(
         at_x, at_y = np.broadcast_arrays(x[columns][None, :, None] + from_x, y[rows][:, None, None] + from_y)
         for field, depth in zip(fields, depths, strict=True):
             for values, uses in kernels.corners(at_x.ravel(), at_y.ravel(), float(depth)):
-                # A plain number has no sum.
-                for k, component in uses if np.ndim(values) else ():
+                if not isinstance(values, np.ndarray):
+                    # A plain number has no sum.
+                    continue
+                for k, component in uses:
                     if k in steps:
                         field[component, rows, columns] += values.reshape(*shape, -1) @ steps[k]
     return fields

@@ -22,9 +22,9 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from treadload.kernels.arrays import Array, ComplexArray
+from treadload.kernels.arrays import Array, ComplexArray, Reals
 from treadload.kernels.gridding.gridded import Method, on_grid
-from treadload.kernels.gridding.lattice import Corner, Kernels, Source, over_depths
+from treadload.kernels.gridding.lattice import Cell, Kernels, Source, over_depths
 from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space.corners import at_corners, at_nodes, is_surface
 from treadload.kernels.half_space.upright import Medium, fields_of
@@ -78,7 +78,7 @@ def hat_kernels(dx: float, dy: float, nu: Medium, *, moves: bool = True) -> Kern
     moves: False leaves the displacement out.
     """
 
-    def kernels(first_x: Array, first_y: Array, shape: tuple[int, int], z: float) -> Iterator[Corner]:
+    def kernels(first_x: Array, first_y: Array, shape: tuple[int, int], z: float) -> Iterator[Cell]:
         m, n = shape
 
         def places(before: float, more: int) -> tuple[Array, Array]:
@@ -123,7 +123,7 @@ def _range(wanted: NDArray[np.bool_]) -> slice:
     return slice(int(members[0]), int(members[-1]) + 1) if len(members) else slice(0, 0)
 
 
-def _differences(values: Array, order: int) -> Array:
+def _differences(values: Reals, order: int) -> Array:
     result: Array = np.diff(np.diff(values, order, axis=1), order, axis=3)
     return result
 

@@ -16,11 +16,11 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import cast
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, Reals
 from treadload.kernels.gridding.lattice import Corner
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _UX, _UY, _UZ = range(9)
@@ -47,33 +47,33 @@ class _Corners:
 
     x: Array
     y: Array
-    z: Any
+    z: Reals
     r: Array
     log_x: Array
     log_y: Array
     log_r: Array
-    turn: Any
+    turn: Reals
     turn_x: Array
     turn_y: Array
 
     @property
-    def part(self) -> Any:
+    def part(self) -> Reals:
         return self.z / self.r if self.z != 0 else 0.0
 
     @property
-    def over_x(self) -> Any:
+    def over_x(self) -> Reals:
         return self.part * (self.x / (self.x * self.x + self.z * self.z)) * self.y if self.z != 0 else 0.0
 
     @property
-    def over_y(self) -> Any:
+    def over_y(self) -> Reals:
         return self.part * (self.y / (self.y * self.y + self.z * self.z)) * self.x if self.z != 0 else 0.0
 
     @property
-    def deep_x(self) -> Any:
+    def deep_x(self) -> Reals:
         return self.part * (self.z / (self.x * self.x + self.z * self.z)) * self.y if self.z != 0 else 0.0
 
     @property
-    def deep_y(self) -> Any:
+    def deep_y(self) -> Reals:
         return self.part * (self.z / (self.y * self.y + self.z * self.z)) * self.x if self.z != 0 else 0.0
 
     @property
@@ -85,11 +85,11 @@ class _Corners:
         return self.y / self._far
 
     @property
-    def steep_x(self) -> Any:
+    def steep_x(self) -> Reals:
         return self.part * self.slope_x
 
     @property
-    def steep_y(self) -> Any:
+    def steep_y(self) -> Reals:
         return self.part * self.slope_y
 
     @property
@@ -101,11 +101,11 @@ class _Corners:
         return self.y * self.log_x
 
     @property
-    def tilt_x(self) -> Any:
+    def tilt_x(self) -> Reals:
         return self.y * self.log_r + self.z * self.log_y + self.x * self.turn_x
 
     @property
-    def tilt_y(self) -> Any:
+    def tilt_y(self) -> Reals:
         return self.x * self.log_r + self.z * self.log_x + self.y * self.turn_y
 
     @property
@@ -117,7 +117,7 @@ class _Corners:
 class _Nodes:
     """Integrals over x and y of the functions of `_Corners`, by their names; continuous, the surface included."""
 
-    z: Any
+    z: Reals
     r: Array
     log_x: Array
     log_y: Array
@@ -140,7 +140,11 @@ class _Nodes:
     tilt_y: Array
 
 
-def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: complex = 1.0) -> _Corners:
+Functions = _Corners | _Nodes
+"""Those of a corner, or their integrals."""
+
+
+def at_corners(x: Array, y: Array, z: Reals, dx: float, dy: float, stretch: complex = 1.0) -> _Corners:
     """The functions at (x, y, z) from a corner of cells dx by dy, m, broadcast from x and y.
 
     stretch: of the depth: how fast waves of a medium that is another along z decay, by those of isotropic ones; its
@@ -154,7 +158,7 @@ def at_corners(x: Array, y: Array, z: Any, dx: float, dy: float, stretch: comple
     if surface:
         z = 0.0
     elif stretch != 1:
-        z = z * stretch
+        z = cast("Reals", z * stretch)
     x2, y2 = x * x + z * z, y * y + z * z
     r, edge_x, edge_y = np.sqrt(x2 + y * y), np.sqrt(x2), np.sqrt(y2)
     far = r + z
@@ -247,7 +251,7 @@ def at_nodes(x: Array, y: Array, z: Array | float, dx: float, dy: float, stretch
     )
 
 
-def fields(f: _Corners | _Nodes, nu: float, *, moves: bool = True) -> Iterator[Corner]:
+def fields(f: Functions, nu: float, *, moves: bool = True) -> Iterator[Corner]:
     """Stress, numbers 0 to 5, and displacement times the shear modulus, 6 to 8, from the functions.
 
     moves: False leaves the displacement out.

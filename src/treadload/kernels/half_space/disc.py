@@ -9,12 +9,11 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, ComplexArray, Numbers
 from treadload.kernels.half_space.upright import Modes, UprightMedium
 
 # Closer to the axis than this part of the distance to the rim, two terms of the power series in r serve:
@@ -37,8 +36,8 @@ def disc_fields(
     """
     x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
     a, r = radius, np.hypot(x, y)
-    make = _isotropic if isinstance(poisson, int | float) else _upright
-    radial, around, down, slant, outward, sunk = make(a, r, z, poisson)
+    of_media = _isotropic(a, r, z, poisson) if isinstance(poisson, int | float) else _upright(a, r, z, poisson)
+    radial, around, down, slant, outward, sunk = of_media
     c, t = np.where(r > 0, x / np.where(r > 0, r, 1), 1), np.where(r > 0, y / np.where(r > 0, r, 1), 0)
     stress = np.stack(
         [
@@ -53,7 +52,7 @@ def disc_fields(
     return stress, np.stack([x * outward, y * outward, sunk]) / shear
 
 
-def _isotropic(a: float, r: Array, z: float, nu: Any) -> tuple[Array, ...]:
+def _isotropic(a: float, r: Array, z: float, nu: float) -> tuple[Array, ...]:
     """σ_rr, σ_tt, σ_zz, σ_rz, u_r / r and u_z, displacement times the shear modulus."""
     f, soft = _Integrals.of(a, r, z), 1 - 2 * nu
     hoop = soft * f.i11m_r - z * f.i110_r
@@ -62,11 +61,11 @@ def _isotropic(a: float, r: Array, z: float, nu: Any) -> tuple[Array, ...]:
     return radial, around, -a * (f.i100 + f.zi101), -a * f.zi111, -a / 2 * hoop, sunk
 
 
-def _upright(a: float, r: Array, z: float, medium: Any) -> tuple[Array, ...]:
+def _upright(a: float, r: Array, z: float, medium: UprightMedium) -> tuple[Array, ...]:
     """The same of a half-space that is another along z: the waves of `kernels.half_space.upright`."""
     modes: Modes = medium.modes
     alone = _Integrals.of(a, r, z) if z <= 0 else None
-    total: Any = 0.0
+    total: Numbers = np.zeros(())
     for s, weight, kk, tt, out, down in zip(
         modes.decay, modes.pressed, modes.along, modes.across, modes.out, modes.down, strict=True
     ):
@@ -85,13 +84,13 @@ class _Integrals:
     zi101, zi111: times z, those that only isotropy needs, at real depths.
     """
 
-    i000: Any
-    i100: Any
-    i110_r: Any
-    i10m: Any
-    i11m_r: Any
-    zi101: Any
-    zi111: Any
+    i000: Array
+    i100: Array
+    i110_r: Array
+    i10m: Array
+    i11m_r: Array
+    zi101: Array
+    zi111: Array
 
     @classmethod
     def of(cls, a: float, r: Array, z: complex) -> _Integrals:
@@ -135,10 +134,11 @@ class _Integrals:
         return cls(i000, i100, i110_r, i10m, i11m_r, zi101, zi111)
 
 
-def _third(rest: Any, p: Any) -> Any:
+def _third(rest: Numbers, p: Numbers) -> Numbers:
     """Carlson's R_J(0, rest, 1, p), p > 0; rest may be complex, off the negative real axis."""
     if not np.iscomplexobj(rest):
-        return scipy.special.elliprj(np.zeros_like(rest), rest, np.ones_like(rest), p)
+        plain: Array = scipy.special.elliprj(np.zeros_like(rest), rest, np.ones_like(rest), p)
+        return plain
     # SciPy's wants arguments in the right half of the plane: duplication moves them there.
     x, y, z, p = np.zeros_like(rest), rest, np.ones_like(rest), p + 0j
     total, share = np.zeros_like(rest), 1.0
@@ -149,4 +149,5 @@ def _third(rest: Any, p: Any) -> Any:
         total += share * 6 / d * scipy.special.elliprc(np.ones_like(d), 1 + (p - x) * (p - y) * (p - z) / d**2)
         share /= 4
         x, y, z, p = ((term + moved) / 4 for term in (x, y, z, p))
-    return total + share * scipy.special.elliprj(x, y, z, p)
+    turned: ComplexArray = total + share * scipy.special.elliprj(x, y, z, p)
+    return turned

@@ -20,13 +20,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from operator import attrgetter
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Numbers
+from treadload.kernels.arrays import Numbers, Reals
 from treadload.kernels.gridding.lattice import Corner
-from treadload.kernels.half_space.corners import fields
+from treadload.kernels.half_space.corners import Functions, fields
 from treadload.kernels.layers.upright import Upright
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ, _UX, _UY, _UZ = range(9)
@@ -52,7 +51,9 @@ class UprightMedium:
         """From moduli in Pa; shear: in the horizontal plane."""
         return cls(poisson, Upright(upright.along / shear, upright.across / shear, upright.shear / shear))
 
-    def fields(self, functions: Callable[[complex], object], deep: bool, *, moves: bool = True) -> Iterator[Corner]:
+    def fields(
+        self, functions: Callable[[complex], Functions], deep: bool, *, moves: bool = True
+    ) -> Iterator[Corner]:
         """As `kernels.half_space.corners.fields`, the displacement times the shear modulus in the plane.
 
         functions: those of corners or of nodes at a stretch of the depth. deep: whether below the surface, where the
@@ -64,10 +65,10 @@ class UprightMedium:
         swayed = functions(modes.transverse) if deep else alone
         unit = 1 / (2 * np.pi)
 
-        def pressed(part: object, of: Callable[[object], object]) -> Any:
+        def pressed(part: Numbers, of: Callable[[Functions], Reals]) -> Reals:
             return _real(unit * modes.pressed * part, [of(f) for f in at])
 
-        def sheared(part: object, of: Callable[[object], object]) -> Any:
+        def sheared(part: Numbers, of: Callable[[Functions], Reals]) -> Reals:
             return _real(unit * modes.sheared * part, [of(f) for f in at])
 
         along, across, ones, s = modes.along, modes.across, np.ones_like(modes.decay), modes.decay
@@ -123,13 +124,13 @@ class Modes:
     down: k i u_k and k u_z. transverse: s3; sway: k u_t by f_t. Of a complex pair one point stands for both.
     """
 
-    decay: Any
-    sheared: Any
-    pressed: Any
-    along: Any
-    across: Any
-    out: Any
-    down: Any
+    decay: Numbers
+    sheared: Numbers
+    pressed: Numbers
+    along: Numbers
+    across: Numbers
+    out: Numbers
+    down: Numbers
     transverse: float
     sway: float
 
@@ -168,7 +169,7 @@ Medium = float | UprightMedium
 
 
 def fields_of(
-    functions: Callable[[complex], Any], medium: Medium, deep: bool, *, moves: bool = True
+    functions: Callable[[complex], Functions], medium: Medium, deep: bool, *, moves: bool = True
 ) -> Iterator[Corner]:
     """`kernels.half_space.corners.fields` of any medium, see `UprightMedium.fields`."""
     if isinstance(medium, UprightMedium):
@@ -181,9 +182,10 @@ def own_share(medium: Medium) -> float:
     return medium.beneath if isinstance(medium, UprightMedium) else -2 * medium
 
 
-def _real(weights: Any, values: list[Any]) -> Any:
+def _real(weights: Numbers, values: list[Reals]) -> Reals:
     """The real part of a sum."""
-    return sum(weight * value for weight, value in zip(weights, values, strict=True)).real
+    real: Reals = sum(weight * value for weight, value in zip(weights, values, strict=True)).real
+    return real
 
 
 # What waves e^{-kz} of a direction (c, s) become over a rectangle, times 2π: those of c² and s², 1, c s, i s and i c,
@@ -200,13 +202,13 @@ _tilt_x = attrgetter("tilt_x")
 _tilt_y = attrgetter("tilt_y")
 
 
-def _flat_x(f: Any) -> Any:
+def _flat_x(f: Functions) -> Reals:
     return f.x_log_y - f.z * f.turn_x
 
 
-def _flat_y(f: Any) -> Any:
+def _flat_y(f: Functions) -> Reals:
     return f.y_log_x - f.z * f.turn_y
 
 
-def _cross(f: Any) -> Any:
+def _cross(f: Functions) -> Reals:
     return f.r - f.z * f.log_r

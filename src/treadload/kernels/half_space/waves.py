@@ -19,11 +19,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, Numbers
+from treadload.kernels.arrays import Array, Values
 
 POWERS = ((4, 0), (3, 1), (2, 2), (1, 3), (0, 4), (3, 0), (2, 1), (1, 2), (0, 3))
 """Powers of cosine and sine, in the order of all results here: five even functions, four odd ones."""
@@ -38,17 +37,17 @@ class Waves:
     X = Z = 0, Y = Z = 0 (edges seen from the surface) and X = Y = 0 above Z = 0 are singular.
     """
 
-    x: Any
-    y: Any
-    z: Any
+    x: Values
+    y: Values
+    z: Values
 
     @cached_property
-    def distance(self) -> Any:
+    def distance(self) -> Values:
         """R = √(X² + Y² + Z²), of positive real part."""
         return np.sqrt(self.x * self.x + self.y * self.y + self.z * self.z)
 
     @cached_property
-    def values(self) -> Any:
+    def values(self) -> Array:
         """A, without unit."""
         x, y, t, turn_x, turn_y, log_x, log_y = self.x, self.y, self._t, *self._turns, *self._logs
         squares = 0.5 / (t * t)
@@ -59,7 +58,7 @@ class Waves:
         )  # fmt: skip
 
     @cached_property
-    def slopes(self) -> Any:
+    def slopes(self) -> Array:
         """dA/dZ, 1/m."""
         x, y, z, r, t = self.x, self.y, self.z, self.distance, self._t
         xz, yz = x * x + z * z, y * y + z * z
@@ -71,17 +70,17 @@ class Waves:
         )  # fmt: skip
 
     @cached_property
-    def curvatures(self) -> Any:
+    def curvatures(self) -> Array:
         """d²A/dZ², 1/m²."""
         x, y, z, r, t = self.x, self.y, self.z, self.distance, self._t
         xz, yz = x * x + z * z, y * y + z * z
         cube = 1 / (r * r * r)
         falls, single = (2 * r + z) / (t * t) * cube, 1 / (t * r)
 
-        def even(across: object) -> Any:
+        def even(across: Values) -> Values:
             return x * y * (falls - z / across * (cube + 2 / (r * across)))
 
-        def odd(along: object, across: object) -> Any:
+        def odd(along: Values, across: Values) -> Values:
             return along * ((z * z * (cube + 2 / (r * across)) - 1 / r) / across - cube)
 
         return _stacked(
@@ -90,7 +89,7 @@ class Waves:
         )  # fmt: skip
 
     @cached_property
-    def integrals(self) -> Any:
+    def integrals(self) -> Array:
         """∫ A dZ that vanishes with all alternating sums at Z → ∞, m."""
         x, y, z, r, t = self.x, self.y, self.z, self.distance, self._t
         (turn_x, turn_y), (log_x, log_y), log = self._turns, self._logs, np.log(t)
@@ -104,29 +103,30 @@ class Waves:
         )  # fmt: skip
 
     @cached_property
-    def _t(self) -> Any:
+    def _t(self) -> Values:
         return self.distance + self.z
 
     @cached_property
-    def _turns(self) -> tuple[Numbers, Numbers]:
+    def _turns(self) -> tuple[Values, Values]:
         """atan(Y/X) - atan(Y Z / X R), and with X and Y exchanged; as one angle, which has no quotient of zeros."""
         x, y, z, r = self.x, self.y, self.z, self.distance
         rise = x * y * ((x * x + y * y) / self._t)
         return _angle(rise, x * x * r + y * y * z), _angle(rise, y * y * r + x * x * z)
 
     @cached_property
-    def _logs(self) -> tuple[Numbers, Numbers]:
+    def _logs(self) -> tuple[Values, Values]:
         """asinh(X / √(Y² + Z²)), asinh(Y / √(X² + Z²))."""
         x, y, z = self.x, self.y, self.z
         return np.arcsinh(x / np.sqrt(y * y + z * z)), np.arcsinh(y / np.sqrt(x * x + z * z))
 
 
-def _angle(rise: Array, run: Array) -> Array:
+def _angle(rise: Values, run: Values) -> Values:
     """atan(rise / run) where the run has a positive real part or both vanish."""
     if np.isrealobj(rise):
         return np.arctan2(rise, run)
     return np.arctan(rise / run)
 
 
-def _stacked(*functions: Numbers) -> Numbers:
-    return _TURN * np.stack(np.broadcast_arrays(*functions))
+def _stacked(*functions: Values) -> Array:
+    stacked: Array = _TURN * np.stack(np.broadcast_arrays(*functions))
+    return stacked

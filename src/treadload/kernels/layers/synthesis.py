@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.layers.wavenumbers import Table, gauss, tabulated
 
@@ -244,7 +244,7 @@ class _Transform:
     columns) and the columns, by number.
     """
 
-    parts: list[tuple[Cells, list[float], Array, Array, Any]]
+    parts: list[tuple[Cells, list[float], Array, Array, IntArray]]
     precision: type[np.floating[Any]]
 
     @classmethod
@@ -258,7 +258,7 @@ class _Transform:
             else:
                 alike.append(cells.x0)
         sheared = any(cells.load[1:].any() for cells, _ in together)
-        parts = []
+        parts: list[tuple[Cells, list[float], Array, Array, IntArray]] = []
         for block, places in together:
             # Grooves and the rim of the grid bear nothing.
             rows, columns = (np.flatnonzero(block.load.any(axis=(0, axis))) for axis in (2, 1))
@@ -294,7 +294,7 @@ def _moved_along(cells: Cells, reference: Cells) -> bool:
     return same and (cells.load is reference.load or np.array_equal(cells.load, reference.load))
 
 
-def _towards(k: Array, width: float, first: float, cells: Any, order: int) -> Array:
+def _towards(k: Array, width: float, first: float, cells: IntArray, order: int) -> Array:
     """Cosine and sine transforms of cells (n,), by number, (n, 2 nk)."""
     turn = np.outer(first + width * cells, k)
     # numpy's sinc takes half turns.
