@@ -147,7 +147,8 @@ def test_nothing_cracks_where_nothing_is_tensile():
     road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
     at = np.linspace(-0.08, 0.08, 17)
     pressed = solve_response(UniformDisc(0.12, 8e5), road, depths=[0.0, 0.01], x=at, y=at)
-    verdict = assess(pressed, LINE, strain="principal")
+    # Without its road the response is not solved beyond the map, where the surface hogs.
+    verdict = assess(replace(pressed, road=None), LINE, strain="principal", depth=0.0)
     assert float(pressed.dataset.principal_strain_1.max()) > 10e-6
     assert verdict.orientation == "none"
     assert np.isinf(verdict.dataset.allowable_passes).all()

@@ -41,13 +41,15 @@ def test_bottoms_that_are_pressed_are_not_named():
 def test_the_assessment_states_what_the_bright_spots_of_the_map_are():
     solved = response([0.0, 0.06])
     verdict = tl.assess(solved, LINE)
-    assert not float(verdict.dataset["worst_strain"]) > 0
     most = float(solved.dataset["principal_strain_1"].max()) * 1e6
     (spot,) = [one for one in verdict.warnings if "principal strain of the map" in one]
     assert f"{most:.3g} microstrain at x = " in spot
     assert "no principal stress is tensile there" in spot
     assert "260 mm" in verdict.summary()
-    assert "predicts no cracking" in verdict.rows()[-1].text
+    # No crack opens in the map; 6.1 microstrain open one beyond it, where the surface hogs.
+    assert (verdict.dataset["crack_orientation"] == 0).all()
+    assert float(verdict.dataset["worst_strain"]) == pytest.approx(6.1e-6, rel=0.02)
+    assert any("no crack opens in the map" in text for text in verdict.warnings)
 
 
 def test_a_map_that_is_evaluated_as_it_is_has_no_bright_spot():

@@ -90,6 +90,11 @@ class Field:
         values = tensors.largest_principal(strain), tensors.in_plane_principal(strain)[0]
         return {name: float(value.max()) for name, value in zip(_PRINCIPAL, values, strict=True)}
 
+    @property
+    def most(self) -> float:
+        """The largest reading."""
+        return float(self.value[self.worst])
+
     @cached_property
     def worst(self) -> tuple[int, int, int]:
         """Index of the largest reading, see `index_of_largest`."""
@@ -147,7 +152,7 @@ def mean_field(
     means = Means.of(response, length)
     if set(line.reads.needs) <= _TENSORS and not response.restrained and isinstance(solved, Response):
         return means.at_points_of(solved, depths), caveats, means
-    return _read(means, line.reads, depths, x=data["x"].to_numpy(), y=data["y"].to_numpy()), caveats, means
+    return read_means(means, line.reads, depths, x=data["x"].to_numpy(), y=data["y"].to_numpy()), caveats, means
 
 
 def under_both(response: Source, shifted: Sequence[PlacedLoad], depth: float | None) -> Response:
@@ -178,9 +183,9 @@ def closer(means: Means, field: Field) -> tuple[Field, dict[str, float]] | None:
             return None
         row, j, i = better.worst
         depth, y, x = (better.data[name].to_numpy()[k : k + 1] for name, k in (("depth", row), ("y", j), ("x", i)))
-        exact = replace(better, data=_read(means, better.quantity, depth, x=x, y=y))
+        exact = replace(better, data=read_means(means, better.quantity, depth, x=x, y=y))
         # Beside the line where tension ends either of them may lie beyond it.
-        if abs(_largest(exact) / _largest(better) - 1) < _ROUGH:
+        if abs(exact.most / better.most - 1) < _ROUGH:
             return exact, better.largest
     better = _worst_between(means, field, rough=False)
     return None if better is None else (better, better.largest)
@@ -195,27 +200,23 @@ def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
     finer = {
         name: _between(best.data[name].to_numpy(), k) for name, k in zip(("y", "x"), best.worst[1:], strict=True)
     }
-    read = _read_between if rough else _read
+    read = _read_between if rough else read_means
     finest = replace(best, data=read(means, best.quantity, best.data["depth"].to_numpy(), rough=rough, **finer))
-    best = max(best, finest, key=_largest)
-    return max(best, _deeper(means, field, best, rough=rough), key=_largest)
+    best = max(best, finest, key=lambda near: near.most)
+    return max(best, _deeper(means, field, best, rough=rough), key=lambda near: near.most)
 
 
 def _worst_of(fields: Sequence[Field]) -> Field:
     """The field with the largest reading; of those that are equally large, as under the two shoulders of a symmetric
     tire, the one whose worst place has the largest y, then the largest x, see `index_of_largest`.
     """
-    least = (1 - _ROUGH) * max(map(_largest, fields))
+    least = (1 - _ROUGH) * max(near.most for near in fields)
 
     def place(field: Field) -> tuple[float, float]:
         _, j, i = field.worst
         return float(field.data["y"][j]), float(field.data["x"][i])
 
-    return max((field for field in fields if _largest(field) >= least), key=place)
-
-
-def _largest(field: Field) -> float:
-    return float(field.value[field.worst])
+    return max((field for field in fields if field.most >= least), key=place)
 
 
 def _deeper(means: Means, field: Field, best: Field, *, rough: bool) -> Field:
@@ -227,14 +228,14 @@ def _deeper(means: Means, field: Field, best: Field, *, rough: bool) -> Field:
     here = {"y": best.data["y"].to_numpy()[j : j + 1], "x": best.data["x"].to_numpy()[i : i + 1]}
     most, depth = _worst_below(means, best, depths, here, rough=rough)
     # Cubes less than half a length deep are one and the same.
-    if not most > _largest(best) * (1 + _SAME):
+    if not most > best.most * (1 + _SAME):
         return best
     apart = {name: np.abs(np.diff(field.data[name].to_numpy()[:2])) for name in here}
     around = {
         name: at + (step / _FINER * np.arange(-_FINER, _FINER + 1) if len(step) else np.zeros(1))
         for (name, at), step in zip(here.items(), apart.values(), strict=True)
     }
-    return replace(best, data=_read(means, best.quantity, np.array([depth]), rough=rough, **around))
+    return replace(best, data=read_means(means, best.quantity, np.array([depth]), rough=rough, **around))
 
 
 def _worst_below(
@@ -244,14 +245,16 @@ def _worst_below(
 
     here: y and x of the place, (1,) each.
     """
-    largest_by_read = {means.reads(float(best.data["depth"][best.worst[0]])): _largest(best)}
+    largest_by_read = {means.reads(float(best.data["depth"][best.worst[0]])): best.most}
 
     def readings(at: Array) -> Array:
         """Of cubes around depths; those that reach as far are read once."""
         reads = [means.reads(float(depth)) for depth in at]
         new = {read: depth for read, depth in zip(reads, at, strict=True) if read not in largest_by_read}
         if new:
-            column = replace(best, data=_read(means, best.quantity, np.array([*new.values()]), rough=rough, **here))
+            column = replace(
+                best, data=read_means(means, best.quantity, np.array([*new.values()]), rough=rough, **here)
+            )
             largest_by_read.update(zip(new, column.value[:, 0, 0].tolist(), strict=True))
         return np.array([largest_by_read[read] for read in reads])
 
@@ -299,7 +302,7 @@ def _nearer(means: Means, field: Field, at: tuple[int, int, int], *, rough: bool
         return None
     y, x = (np.asarray(bounds) for bounds in around)
     depth = field.data["depth"].to_numpy()[row : row + 1]
-    return replace(field, data=_read(means, field.quantity, depth, x=x, y=y, rough=rough))
+    return replace(field, data=read_means(means, field.quantity, depth, x=x, y=y, rough=rough))
 
 
 def _between(at: Array, k: int) -> Array:
@@ -310,7 +313,9 @@ def _between(at: Array, k: int) -> Array:
     return fine
 
 
-def _read(means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array, rough: bool = False) -> xr.Dataset:
+def read_means(
+    means: Means, quantity: Quantity, depths: Array, *, x: Array, y: Array, rough: bool = False
+) -> xr.Dataset:
     """Means at depths, over (depth, y, x), with the thermal stress that was added to the response."""
     response = means.response
     if set(quantity.needs) <= _TENSORS:
@@ -334,7 +339,7 @@ def _read_between(means: Means, quantity: Quantity, depths: Array, *, x: Array, 
     as these reach; polynomials through n of Chebyshev's points then err as 10^-n.
     """
     (from_x, at_x), (from_y, at_y) = (_chebyshev(at) for at in (x, y))
-    sampled = _read(means, quantity, depths, x=at_x, y=at_y, rough=rough)
+    sampled = read_means(means, quantity, depths, x=at_x, y=at_y, rough=rough)
     fields = {
         str(name): (("depth", "y", "x"), np.einsum("ya,zab,xb->zyx", from_y, sampled[name].to_numpy(), from_x))
         for name in sampled.data_vars

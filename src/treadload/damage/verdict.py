@@ -13,7 +13,7 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Columns, Holds, Source
-from treadload.damage.border import on_the_border
+from treadload.damage.border import border_in_words, evaluated_further
 from treadload.damage.cracks import (
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
@@ -173,7 +173,9 @@ def assess(
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
     of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
     depths closer to each other; the worst of all is the verdict, which says how deep it is. A response that already
-    is a mean is read as it is.
+    is a mean is read as it is. Where the largest value of the map lies at its end, or no crack opens in it, the field
+    is solved further, as far as the basin reaches, until the largest lies inside; a warning states the place if it is
+    beyond the map, or that the largest still lies at the end.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
     shifted: True solves the contacts of the response once more, on cells half a cell beside, and reads both; where
@@ -222,6 +224,8 @@ def assess(
     deep = float(data["depth"][level])
     closer_values = closer(means, field) if means is not None and field.value[field.worst] > 0 else None
     near, around = (field, field.largest) if closer_values is None else closer_values
+    further, beyond = evaluated_further(response, field, means)
+    near = near if further is None or not further.most > near.most else further
     at = near.worst
     if near is not field:
         deep = float(near.data["depth"][at[0]])
@@ -232,6 +236,7 @@ def assess(
     worst_angle, worst_dip = (float(part[at]) for part in near.crack)
     codes = orientation(np.append(angle, worst_angle), np.append(dip, worst_dip), oblique_tolerance)
     dims, none = ("y", "x"), ()
+    by_depth = field.value.max(axis=(1, 2))
     passes = line.allowable_passes(field.value[level])
     fields: dict[str, tuple[tuple[str, ...], object]] = {
         "extension_strain": (dims, field.extension[level]),
@@ -239,7 +244,7 @@ def assess(
         "crack_angle": (dims, angle),
         "crack_dip": (dims, dip),
         "crack_orientation": (dims, codes[:-1].reshape(dip.shape)),
-        "extension_by_depth": (("depth",), field.value.max(axis=(1, 2))),
+        "extension_by_depth": (("depth",), by_depth if beyond is None else np.fmax(by_depth, beyond.by_depth)),
         "worst_x": (none, float(near.data["x"][at[2]])),
         "worst_y": (none, float(near.data["y"][at[1]])),
         "worst_depth": (none, deep),
@@ -259,7 +264,7 @@ def assess(
         )
     evaluated = float(near.value[at]) if opens else 0.0
     caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
-    caveats += on_the_border(alone, field)
+    caveats += border_in_words(alone, field, beyond)
     caveats += bottoms_without_depth(alone)
     caveats += filled_ribs(alone, data["depth"].to_numpy())
     dataset = variables.dataset(

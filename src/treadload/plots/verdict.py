@@ -152,7 +152,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     finite = values[np.isfinite(values)]
     if not finite.size:
         frame_plan(ax, plan)
-        empty_note(ax, "no tensile strain here:\nthe line sets no limit")
+        empty_note(ax, f"no tensile strain here:\nthe line sets no limit{_beyond(data)}")
         headline(ax, "Allowable load repetitions")
         return figure
     least = float(finite.min())
@@ -219,11 +219,20 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
             ax,
             "no tensile strain here"
             if not np.nanmax(values) > 0
-            else "no tensile stress\nwhere the strain is tensile",
+            else f"no tensile stress\nwhere the strain is tensile{_beyond(data)}",
         )
-        headline(ax, "No crack to expect", f"tensile strain, {reads}")
+        first = "No crack to expect in this map" if _beyond(data) else "No crack to expect"
+        headline(ax, first, f"tensile strain, {reads}")
     travel_arrow(ax)
     return figure
+
+
+def _beyond(data: xr.Dataset) -> str:
+    """Where the first crack opens if none does in the map, on a line of its own; empty where none opens at all."""
+    if "worst_strain" not in data or not float(data["worst_strain"]) > 0:
+        return ""
+    x, y, strain = (float(data[f"worst_{name}"]) for name in ("x", "y", "strain"))
+    return f";\n{measure(strain * MICRO)} microstrain beyond the map,\nat x = {1e3 * x:.0f} mm, y = {1e3 * y:.0f} mm"
 
 
 def _decade(passes: float) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from treadload.case import Case
 from treadload.case.criteria import CRITERION
 from treadload.damage import Verdict
+from treadload.damage.border import beyond_the_map
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.french import RISK
@@ -23,6 +24,7 @@ from treadload.materials import HydraulicMix, Mix, Unbound
 from treadload.materials.plastic import elastic_part
 from treadload.pavement import Pavement, is_bituminous
 from treadload.response import solve_response
+from treadload.response.basin import basin_reach
 from treadload.response.superposition import common_grid
 from treadload.steps.loaded import Loaded
 
@@ -116,7 +118,8 @@ def passes_allowed(load: Loaded, verdict: Verdict | None = None) -> PassesAllowe
     """Passes of the load of a case by criterion: its own verdict, then the laws that the road's layers have.
 
     load: a road under its wheels, at its temperature. verdict: of the case, see `judge`; left out, none.
-    A reading is the largest of one passage, anywhere across the wheels: no wander, no season, no other axle.
+    A reading is the largest of one passage, anywhere across the wheels, or further as far as the basin reaches where
+    the largest lies at the end of what is evaluated: no wander, no season, no other axle.
     """
     criteria, without = criteria_of_layers(load.case)
     rows = [] if verdict is None else [_judged(verdict, load.road)]
@@ -152,18 +155,25 @@ def _read(load: Loaded, criterion: Criterion) -> Allowed:
     depth, grid = criterion.depth(road), common_grid(load.wheels)
     x, y = (_along(at, depth) for at in (grid.x, grid.y))
     speed = load.case.speed if road.is_viscoelastic else None
-    data = solve_response(
-        load.wheels, road, depths=[depth], x=x, y=y, side=criterion.side, speed=speed,
-        mean_over=criterion.mean_over, progress=load.tell,
-    ).dataset.isel(depth=0)  # fmt: skip
-    values = criterion.read(data)
-    row, column = index_of_largest(values)
+
+    def values_at(more_x: Array, more_y: Array) -> Array:
+        data = solve_response(
+            load.wheels, road, depths=[depth], x=more_x, y=more_y, side=criterion.side, speed=speed,
+            mean_over=criterion.mean_over, progress=load.tell,
+        ).dataset  # fmt: skip
+        return criterion.read(data)
+
+    values = values_at(x, y)
+    _, row, column = index_of_largest(values)
+    largest, place = float(values.max()), (float(x[column]), float(y[row]))
+    beyond = beyond_the_map(values, x, y, values_at, basin_reach([road]))
+    if beyond is not None and beyond.value > largest:
+        largest, place = beyond.value, (beyond.x, beyond.y)
     assert load.case.pavement is not None
     temperature = load.case.pavement.layer_temperatures()[number]
     law = criterion.law_at(_ANY_TEMPERATURE if temperature is None else temperature)
     return Allowed(
-        criterion.name, _name(road, number), str(criterion.place), depth, law, max(float(values[row, column]), 0.0),
-        float(data["x"][column]), float(data["y"][row]),
+        criterion.name, _name(road, number), str(criterion.place), depth, law, max(largest, 0.0), *place,
     )  # fmt: skip
 
 
