@@ -214,6 +214,7 @@ def _place(target: Callable[..., object]) -> str:
 MATERIALS = Registry("material", "treadload.materials", default="elastic")
 SHIFTS = Registry("shift", "treadload.shifts")
 PLASTICITY = Registry("plastic law", "treadload.plasticity")
+MODULUS_LAWS = Registry("law of the modulus", "treadload.modulus_laws")
 BONDS = Registry("bond", "treadload.bonds", default="spring", words=True, example='{ stiffness = "1000 MPa/m" }')
 FRICTION = Registry("friction law", "treadload.friction", key="law", number="coulomb")
 MANEUVERS = Registry("maneuver", "treadload.maneuvers", words=True, example='{ kind = "braking", deceleration = 3 }')
@@ -231,7 +232,10 @@ FIGURES = Registry("figure", "treadload.figures", key="")
 COMPARISONS = Registry("comparison", "treadload.comparisons", key="")
 COLOUR_MAPS = Registry("source of colour maps", "treadload.colour_maps", key="")
 PAGES = Registry("page", "treadload.pages", key="")
-ALL = (MATERIALS, SHIFTS, PLASTICITY, BONDS, FRICTION, MANEUVERS, CRITERIA, GROWTH, QUANTITIES, READERS, FOOTPRINTS)
+ALL = (
+    MATERIALS, SHIFTS, PLASTICITY, MODULUS_LAWS, BONDS, FRICTION, MANEUVERS, CRITERIA, GROWTH, QUANTITIES, READERS,
+    FOOTPRINTS,
+)  # fmt: skip
 # Leaves know no room; the public names do.
 RESULTS.filled_by(lambda: _public.named("sweeps"))
 STEPS.filled_by(lambda: _public.named("steps"))

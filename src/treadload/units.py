@@ -58,6 +58,7 @@ _EXAMPLES = {
     "J/mol": '"200 kJ/mol"',
     "W/(m K)": '"0.25 W/(m K)"',
     "J/(m^3 K)": '"2.1 MJ/(m^3 K)"',
+    "N/m^3": '"20 kN/m^3"',
     "": '"120 microstrain" or 0.7',
 }
 # Spellings that a person types with capitals astray.
@@ -74,6 +75,7 @@ _FACTORS = {
     "N": {"N": 1.0, "kN": 1e3},
     "N m": {"N m": 1.0},
     "N/m": {"N/m": 1.0, "N/mm": 1e3},
+    "N/m^3": {"N/m^3": 1.0, "kN/m^3": 1e3},
     "1/m": {"1/m": 1.0},
     "m/s": {"m/s": 1.0, "km/h": 1 / 3.6},
     "s": {"s": 1.0, "ms": 1e-3},
@@ -313,6 +315,7 @@ Compliance = Annotated[float, Unit("1/Pa")]
 MolarEnergy = Annotated[float, Unit("J/mol")]
 Conductivity = Annotated[float, Unit("W/(m K)")]
 HeatCapacity = Annotated[float, Unit("J/(m^3 K)")]
+UnitWeight = Annotated[float, Unit("N/m^3")]
 Number = Annotated[float, Unit("")]
 Strain = Annotated[float, Unit("", "strain")]
 Share = Annotated[float, Unit("", "share")]

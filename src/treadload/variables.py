@@ -465,8 +465,15 @@ _CLIMATE = {
     "sublayer_bottom": ("m", "depth of the bottom of a part of a course"),
     "sublayer_layer": ("1", "number of the layer that a part belongs to, from the surface, 0 the top one"),
     "sublayer_temperature": ("degC", "temperature of a part of a course in a season"),
-    "sublayer_modulus": ("Pa", "Young's modulus of a part of a course in a season"),
+    "sublayer_modulus": ("Pa", "Young's modulus of a part of a course, in a season where there are several"),
     "sublayer_modulus_young": ("Pa", "the same of the young mix"),
+    "sublayer_bulk_stress": (
+        "Pa",
+        "bulk stress in the law of a stress-dependent part of a course, compressive",
+    ),
+    "sublayer_deviator_stress": ("Pa", "deviator stress in the law of a stress-dependent part of a course"),
+    "largest_sublayer_modulus": ("Pa", "largest Young's modulus of a stress-dependent layer over its depth"),
+    "least_sublayer_modulus": ("Pa", "least Young's modulus of a stress-dependent layer over its depth"),
 }
 
 _GROWTH = {
@@ -698,6 +705,8 @@ def modulus_in_words(modulus: float) -> str:
 _DISPLAYS_DAMAGE = {
     "law": Display("fatigue law"),
     "evaluation": Display("evaluated"),
+    "largest_sublayer_modulus": Display("largest modulus", "MPa", ".4g"),
+    "least_sublayer_modulus": Display("least modulus", "MPa", ".4g"),
     "largest_principal_strain": Display("tensile strain, three-dimensional", "microstrain", ".1f"),
     "largest_in_plane_strain": Display("tensile strain, horizontal plane", "microstrain", ".1f"),
     "worst_strain": Display("evaluated tensile strain", "microstrain", ".1f"),

@@ -244,7 +244,7 @@ def test_other_packages_bring_mixes(offer, file):
     ("function", "message"),
     [
         (lambda: 1 / 0, "entry point 'lab' .fake:lab. of the group treadload.mixes fails: ZeroDivisionError"),
-        (lambda: [Elastic(1e9, 0.3)], "must return Mix, HydraulicMix, Unbound, got Elastic"),
+        (lambda: [Elastic(1e9, 0.3)], "must return Mix, HydraulicMix, Unbound, UnboundByStress, got Elastic"),
         (lambda: [mixes["EB-GB3"]], "brings the mix 'EB-GB3', which treadload has already"),
     ],
 )

@@ -8,7 +8,7 @@ from pydantic import BeforeValidator, model_validator
 
 from treadload.case.choices import BOND, PLASTIC, BondTable, PlasticTable, RoadMaterial
 from treadload.catalogue import mixes
-from treadload.materials import ElastoPlastic, Material, Mix, TemperatureDependent
+from treadload.materials import ElastoPlastic, Material, Mix, StressDependent, TemperatureDependent
 from treadload.materials.tables import ROAD_MATERIAL
 from treadload.pavement import Layer, Pavement, TemperatureProfile
 from treadload.read import As, Table, table_of
@@ -53,7 +53,7 @@ class LayerPart(Table):
             self._material(frequency), self.thickness, name=self.name or self.mix or "", bond=BOND.build(self.bond)
         )
 
-    def _material(self, frequency: float | None) -> Material | TemperatureDependent | ElastoPlastic:
+    def _material(self, frequency: float | None) -> Material | TemperatureDependent | ElastoPlastic | StressDependent:
         if self.material is not None:
             material: Any = ROAD_MATERIAL.build(self.material)
             if self.plasticity is not None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 from weakref import WeakKeyDictionary
@@ -76,7 +76,7 @@ def solve_contact(
     road: road_compliance says how its surface gives way: as a "half_space" of the top layer's material, which
     serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats say how much
     of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
-    layers left out matter. An elastic tire and elastic layers only.
+    layers left out matter. An elastic tire and elastic layers only; stress-dependent ones have their nominal moduli.
     relief: how far the road's surface rises above its plane, as a `pavement.Texture` or any `pavement.Relief`; None
     for a plane. The approach is then counted from the plane, and the dataset has `road_height`. A texture
     whose points lie further apart than the cells is refused.
@@ -94,8 +94,10 @@ def solve_contact(
     """
     began = time.perf_counter()
     search = Search(spacing, offset, tolerance, road_compliance, relief, start)
-    scene, pair = solve_search(tire, road, rolling, search, progress or (lambda text: None))
-    return _contact(scene, rolling, pair, road_compliance, relief, tolerance, time.perf_counter() - began)
+    scene, pair = solve_search(tire, road.at_nominal_stress, rolling, search, progress or (lambda text: None))
+    contact = _contact(scene, rolling, pair, road_compliance, relief, tolerance, time.perf_counter() - began)
+    # The stress of loads on the road is settled by the response.
+    return replace(contact, road=road) if road.depends_on_stress else contact
 
 
 @dataclass(frozen=True, eq=False)

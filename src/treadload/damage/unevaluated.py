@@ -12,6 +12,7 @@ from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
+from treadload.materials import AtStress
 from treadload.response import Response
 from treadload.response.fields import direction_in_words, layer_in_words
 from treadload.response.means import cells_of
@@ -59,13 +60,18 @@ def bright_spot(response: Source, strain_of: Reading, evaluated: float, mean_ove
 def bottoms_without_depth(response: Source) -> list[str]:
     """Bottoms of layers in tension at which a response has no depth, each with its strain and what to add; sentences.
 
-    Elastic layers alone, solved on few points under the loads of the response.
+    Elastic layers alone, solved on few points under the loads of the response. Stress-dependent ones are unbound: no
+    law reads their tension.
     """
     if not isinstance(response, Response) or response.road is None or response.road.is_viscoelastic:
         return []
     data, road = gridded(response), response.road
     depths = data["depth"].to_numpy()
-    missing = [k for k, z in enumerate(road.interfaces) if not same_depth(depths, float(z)).any()]
+    missing = [
+        k
+        for k, z in enumerate(road.interfaces)
+        if not (isinstance(road.layers[k].material, AtStress) or same_depth(depths, float(z)).any())
+    ]
     if not missing or "mean_over" in data.attrs:
         return []
     at = {name: _thinned(data[name].to_numpy()) for name in ("x", "y")}

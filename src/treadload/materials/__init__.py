@@ -30,6 +30,8 @@ from treadload.materials.power_law import PowerLawCreep
 from treadload.materials.published import PublishedMaterial
 from treadload.materials.series import as_prony
 from treadload.materials.shifting import MasterCurve, master_curve
+from treadload.materials.stress_dependent import AtStress, StressDependent, UnboundByStress
+from treadload.materials.stress_laws import Bilinear, Boyce, KTheta, ModulusLaw, Universal, Uzan
 from treadload.materials.temperature import WLF, Arrhenius, QuadraticShift, TabulatedShift, Thermorheological
 from treadload.materials.viscoelastic import Prony
 
@@ -39,6 +41,9 @@ __all__ = [
     "Aggregates",
     "Anisotropic",
     "Arrhenius",
+    "AtStress",
+    "Bilinear",
+    "Boyce",
     "DruckerPrager",
     "Elastic",
     "ElastoPlastic",
@@ -46,11 +51,13 @@ __all__ = [
     "GlobalAging",
     "HuetSayegh",
     "HydraulicMix",
+    "KTheta",
     "MasterCurve",
     "Material",
     "MaterialFit",
     "Mix",
     "Model2S2P1D",
+    "ModulusLaw",
     "MohrCoulomb",
     "Orthotropic",
     "PassesPowerLaw",
@@ -63,12 +70,16 @@ __all__ = [
     "RelaxationTest",
     "RoadMaterial",
     "Solid",
+    "StressDependent",
     "Swift",
     "TabulatedShift",
     "TemperatureDependent",
     "Thermorheological",
     "TransverselyIsotropic",
     "Unbound",
+    "UnboundByStress",
+    "Universal",
+    "Uzan",
     "Viscoelastic",
     "VonMises",
     "as_prony",

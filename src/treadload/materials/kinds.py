@@ -13,6 +13,7 @@ from treadload.kernels.arrays import ComplexArray
 from treadload.materials.anisotropic import Anisotropic, TransverselyIsotropic
 from treadload.materials.elastic import Elastic
 from treadload.materials.plastic import ElastoPlastic
+from treadload.materials.stress_dependent import StressDependent
 from treadload.registry import MATERIALS
 
 
@@ -58,7 +59,7 @@ Solid = Elastic | TransverselyIsotropic
 """What elastic layers of a road can be: the same in all horizontal directions."""
 Material = Elastic | Viscoelastic | Anisotropic
 """What can be solved with."""
-MATERIALS.makes(Elastic, Viscoelastic, Anisotropic, TemperatureDependent, ElastoPlastic)
+MATERIALS.makes(Elastic, Viscoelastic, Anisotropic, TemperatureDependent, ElastoPlastic, StressDependent)
 
 
 def limit_of(material: Material, which: Literal["glassy", "rubbery"]) -> AnyElastic:

@@ -1,7 +1,7 @@
 """The catalogue of road materials: one data file per source in `catalogue/data/mixes`, and those of other packages.
 
 Another package adds its own by an entry point of the group `treadload.mixes`: a function without arguments that
-returns Mix, HydraulicMix and Unbound, for one `lambda: read_mixes(path)` of a file like ours.
+returns Mix, HydraulicMix, Unbound and UnboundByStress, for one `lambda: read_mixes(path)` of a file like ours.
 """
 
 from __future__ import annotations
@@ -14,8 +14,20 @@ from typing import Any
 
 from treadload.errors import InputError
 from treadload.materials.mixture import HydraulicMix, Mix, RoadMaterial, Unbound
+from treadload.materials.stress_dependent import UnboundByStress
+from treadload.materials.stress_laws import ModulusLaw
 from treadload.named import Catalogue, read_tables, sentence
-from treadload.units import Celsius, Frequency, Length, Modulus, Number, Strain, leading_number, quantity
+from treadload.units import (
+    Celsius,
+    Frequency,
+    Length,
+    Modulus,
+    Number,
+    Strain,
+    UnitWeight,
+    leading_number,
+    quantity,
+)
 
 
 @dataclass(frozen=True)
@@ -71,6 +83,17 @@ class _AllUnbound:
 
 
 @dataclass(frozen=True)
+class _ByStress:
+    """A stress-dependent material of a file, see UnboundByStress."""
+
+    law: ModulusLaw
+    earth_pressure: Number
+    unit_weight: UnitWeight
+    poisson: Number | None = None
+    doubts: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class _File:
     """A file of road materials of one source, and the doubts about it."""
 
@@ -79,13 +102,15 @@ class _File:
     bituminous: _AllBituminous | None = None
     hydraulic: dict[str, _Hydraulic] | None = None
     unbound: _AllUnbound | None = None
+    stress_dependent: dict[str, _ByStress] | None = None
 
 
 def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
     """Road materials of a TOML file; see the files of `catalogue/data/mixes`.
 
     Keys: source; doubts, sentences, also of one mix; bituminous with temperatures (°C), frequency (Hz) of the moduli
-    (Pa), poisson, slope, mixes and ratios; hydraulic; unbound. Raises InputError that names file and key.
+    (Pa), poisson, slope, mixes and ratios; hydraulic; unbound; stress_dependent. Raises InputError that names file
+    and key.
     """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
@@ -97,6 +122,7 @@ def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
             *_bituminous(tables.bituminous),
             *_hydraulic(tables.hydraulic or {}),
             *_unbound(tables.unbound),
+            *_by_stress(tables.stress_dependent or {}),
         ]
     except InputError as error:
         raise InputError(f"{name}: {error}") from error
@@ -181,6 +207,13 @@ def _unbound(common: _AllUnbound | None) -> list[Unbound]:
     return [*granular, *platforms]
 
 
+def _by_stress(tables: Mapping[str, _ByStress]) -> list[UnboundByStress]:
+    return [
+        UnboundByStress(name=name, **{field.name: getattr(row, field.name) for field in fields(row)})
+        for name, row in tables.items()
+    ]
+
+
 def _words(material: RoadMaterial) -> str:
     words = str(material).removeprefix(f"{material.name}, ")
     if not isinstance(material, Mix):
@@ -191,7 +224,7 @@ def _words(material: RoadMaterial) -> str:
 
 mixes: Catalogue[RoadMaterial] = Catalogue(
     "mix",
-    (Mix, HydraulicMix, Unbound),
+    (Mix, HydraulicMix, Unbound, UnboundByStress),
     folder="mixes",
     read=read_mixes,
     words=_words,
@@ -199,4 +232,5 @@ mixes: Catalogue[RoadMaterial] = Catalogue(
     use='mix = "EB-GB3" in a layer of a case',
     prefix="EB-",
 )
-"""Road materials: Mix as "EB-GB3", HydraulicMix as "GC-T3", Unbound as "GNT1" or "PF3"; "EB-" may be left out."""
+"""Road materials: Mix as "EB-GB3", HydraulicMix as "GC-T3", Unbound as "GNT1" or "PF3", UnboundByStress as "FDOT
+limerock"; "EB-" may be left out."""

@@ -12,6 +12,7 @@ from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.materials.celsius import check_celsius
 from treadload.materials.elastic import Elastic
+from treadload.materials.stress_dependent import UnboundByStress
 
 # No mix bears a million cycles at one per cent: such a number is microstrain without its unit.
 _LARGEST_STRAIN = 0.01
@@ -203,7 +204,7 @@ class Unbound(Elastic):
     __repr__ = as_call
 
 
-RoadMaterial = Mix | HydraulicMix | Unbound
+RoadMaterial = Mix | HydraulicMix | Unbound | UnboundByStress
 """What the catalogue of mixes holds."""
 
 

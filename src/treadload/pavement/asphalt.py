@@ -3,7 +3,15 @@
 from __future__ import annotations
 
 from treadload.errors import InputError
-from treadload.materials import HydraulicMix, Material, Mix, TemperatureDependent, Unbound
+from treadload.materials import (
+    AtStress,
+    HydraulicMix,
+    Material,
+    Mix,
+    StressDependent,
+    TemperatureDependent,
+    Unbound,
+)
 from treadload.materials.kinds import AnyElastic, upright
 from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import FRICTIONLESS
@@ -42,9 +50,9 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     return total
 
 
-def is_bituminous(material: Material | TemperatureDependent) -> bool | None:
+def is_bituminous(material: Material | TemperatureDependent | StressDependent) -> bool | None:
     """Whether a material is bituminous; None where it cannot be known, see `bituminous_thickness`."""
-    if isinstance(material, Unbound | HydraulicMix):
+    if isinstance(material, Unbound | HydraulicMix | StressDependent | AtStress):
         return False
     if isinstance(material, AnyElastic):
         return False if upright(material)[0] < _UNBOUND else None

@@ -7,24 +7,28 @@ from numbers import Real
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.materials import Anisotropic, ElastoPlastic, Material, Solid, TemperatureDependent
+from treadload.materials import Anisotropic, ElastoPlastic, Material, Solid, StressDependent, TemperatureDependent
 from treadload.materials.kinds import AnyElastic
 from treadload.materials.plastic import elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
 
-_KINDS = "Elastic, ElastoPlastic, anisotropic, viscoelastic such as Prony, or one that depends on temperature"
+_KINDS = (
+    "Elastic, ElastoPlastic, StressDependent, anisotropic, viscoelastic such as Prony, or one that depends on "
+    "temperature"
+)
 
 
 @dataclass(frozen=True)
 class Layer:
     """One layer of a road.
 
-    material: what it is made of: elastic, anisotropic, viscoelastic, elastoplastic, or known once its temperature is.
+    material: what it is made of: elastic, anisotropic, viscoelastic, elastoplastic, or known once its temperature or
+    its stress is.
     thickness: m; None for the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED,
     FRICTIONLESS or Bond(stiffness=...).
     """
 
-    material: Material | TemperatureDependent | ElastoPlastic
+    material: Material | TemperatureDependent | ElastoPlastic | StressDependent
     thickness: float | None = None
     name: str = ""
     bond: BondLaw = BONDED
@@ -32,7 +36,7 @@ class Layer:
     def __post_init__(self) -> None:
         # The protocols themselves would evaluate limits that a fluid has not.
         if not (
-            isinstance(self.material, AnyElastic | ElastoPlastic | TemperatureDependent)
+            isinstance(self.material, AnyElastic | ElastoPlastic | StressDependent | TemperatureDependent)
             or hasattr(self.material, "complex_modulus")
         ):
             raise InputError(
@@ -71,12 +75,17 @@ class Layer:
     def resolved(self) -> Material:
         """The material, elastic or viscoelastic; of an elastoplastic one its elastic part.
 
-        Raises InputError for one that needs a temperature.
+        Raises InputError for one that needs a temperature or loads.
         """
         if isinstance(self.material, TemperatureDependent):
             raise InputError(
                 f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
                 "Pavement.at_temperature(...)"
+            )
+        if self.depends_on_stress:
+            raise InputError(
+                f"layer {self.name!r} is {self.material}, and its modulus follows from the loads: solve_response "
+                "settles it, or take Pavement.at_nominal_stress for the moduli under a usual truck"
             )
         material: Material = elastic_part(self.material)
         return material
@@ -85,5 +94,10 @@ class Layer:
     def depends_on_temperature(self) -> bool:
         """True if the material or the bond is known only once the temperature is."""
         return isinstance(self.material, TemperatureDependent) or self.bond.depends_on_temperature
+
+    @property
+    def depends_on_stress(self) -> bool:
+        """True if the modulus is known only once the loads are."""
+        return isinstance(self.material, StressDependent)
 
     __repr__ = as_call

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from treadload.materials import Anisotropic
+from treadload.materials import Anisotropic, StressDependent
 from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement.bonds import BONDED
 from treadload.pavement.layer import Layer
@@ -25,7 +25,8 @@ class LayerRow:
     name: of the layer. thickness: m, None where it is semi-infinite. modulus: Young's, Pa; of a viscoelastic
     material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio; of an anisotropic material
     both are those under vertical stress. bond: to the layer below, in words; empty below the last. temperature: °C,
-    None where it is not known. material: in words. anisotropic: True if the words alone tell all of its moduli.
+    None where it is not known. material: in words. anisotropic: True if the words
+    alone tell all of its moduli, also those over stress, whose `modulus` is that under a usual truck.
     """
 
     name: str
@@ -63,6 +64,13 @@ def road_in_words(road: Pavement) -> str:
 
 
 def _row(layer: Layer, temperature: float | None, bond: str) -> LayerRow:
+    if isinstance(layer.material, StressDependent):
+        nominal = layer.material.nominal
+        return LayerRow(
+            *(layer.name, layer.thickness, nominal.modulus, None, nominal.poisson, bond, temperature),
+            str(layer.material),
+            anisotropic=True,
+        )
     material = layer.resolved
     frequency = None
     if isinstance(material, AnyElastic):

@@ -13,7 +13,7 @@ from treadload.describing import as_call
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
-from treadload.materials import Material, TemperatureDependent
+from treadload.materials import Material, StressDependent, TemperatureDependent
 from treadload.materials.celsius import check_celsius
 from treadload.materials.kinds import AnyElastic, limit_of
 from treadload.materials.plastic import ElastoPlastic, elastic_part
@@ -70,7 +70,9 @@ class Pavement:
             )
 
     @classmethod
-    def half_space(cls, material: Material | TemperatureDependent | ElastoPlastic, name: str = "") -> Pavement:
+    def half_space(
+        cls, material: Material | TemperatureDependent | ElastoPlastic | StressDependent, name: str = ""
+    ) -> Pavement:
         """A homogeneous half-space."""
         return cls([Layer(material, name=name)])
 
@@ -97,11 +99,11 @@ class Pavement:
 
     @property
     def surface_material(self) -> AnyElastic:
-        """Elastic material of the top layer; of a viscoelastic one the limit of fast loads.
+        """Elastic material of the top layer; of a viscoelastic one the limit of fast loads, see `at_nominal_stress`.
 
         Raises InputError for a material that needs a temperature.
         """
-        return limit_of(self.layers[0].resolved, "glassy")
+        return limit_of(self.at_nominal_stress.layers[0].resolved, "glassy")
 
     @property
     def distinct_layers(self) -> tuple[Layer, ...]:
@@ -143,7 +145,7 @@ class Pavement:
     @property
     def is_homogeneous(self) -> bool:
         """True if the road is one half-space: one material, bonded, without rigid base."""
-        return len(self.distinct_layers) == 1 and not self.rigid_base
+        return len(self.distinct_layers) == 1 and not self.rigid_base and not self.depends_on_stress
 
     @property
     def is_viscoelastic(self) -> bool:
@@ -151,7 +153,29 @@ class Pavement:
 
         Raises InputError for a layer that needs a temperature.
         """
-        return any(not isinstance(layer.resolved, AnyElastic) for layer in self.layers)
+        return any(
+            not layer.depends_on_stress and not isinstance(layer.resolved, AnyElastic) for layer in self.layers
+        )
+
+    @property
+    def depends_on_stress(self) -> bool:
+        """True if the modulus of a layer follows from the loads, see `response.settle`."""
+        return any(layer.depends_on_stress for layer in self.layers)
+
+    @property
+    def at_nominal_stress(self) -> Pavement:
+        """The road with stress-dependent layers under the stress of a usual truck; itself if there is none.
+
+        A contact takes it, for which the moduli of the layers hardly matter.
+        """
+        if not self.depends_on_stress:
+            return self
+        return self._with_materials(
+            [
+                layer.material.nominal if isinstance(layer.material, StressDependent) else layer.material
+                for layer in self.layers
+            ]
+        )
 
     @property
     def glassy(self) -> Pavement:
@@ -261,7 +285,7 @@ class Pavement:
         with _naming(layer):
             return profile.temperature_at(middle, extrapolate=extrapolate)
 
-    def _with_materials(self, materials: Sequence[Material | TemperatureDependent]) -> Pavement:
+    def _with_materials(self, materials: Sequence[Material | TemperatureDependent | ElastoPlastic]) -> Pavement:
         pairs = zip(self.layers, materials, strict=True)
         return Pavement([replace(layer, material=material) for layer, material in pairs], rigid_base=self.rigid_base)
 

@@ -41,7 +41,7 @@ def divided(
             owner.append(number)
             top += layer.thickness or 0.0
             continue
-        sizes = _sizes(top, layer.thickness, thickest)
+        sizes = part_sizes(top, layer.thickness, thickest)
         for part, size in enumerate(sizes):
             material = layer.material if ageing is None else Aged(layer.material, ageing, top + 0.5 * size)
             bond = layer.bond if part == len(sizes) - 1 else BONDED
@@ -65,15 +65,25 @@ def middle_temperatures(road: Pavement, profile: TemperatureProfile) -> list[flo
     return [profile.temperature_at(depth, extrapolate=True) for depth in deep]
 
 
-def _sizes(top: float, thickness: float, thickest: float | None) -> list[float]:
-    """Thicknesses of the parts of a course."""
+def part_sizes(
+    top: float,
+    thickness: float,
+    thickest: float | None,
+    *,
+    thinnest: float = THINNEST,
+    per_depth: float = PER_DEPTH,
+) -> list[float]:
+    """Thicknesses of the parts of a course below a depth, m.
+
+    thickest: of equal parts; None for parts as thick as `thinnest` or `per_depth` times the depth of their top.
+    """
     if thickest is not None:
         count = max(1, math.ceil(thickness / thickest - 1e-9))
         return [thickness / count] * count
     sizes: list[float] = []
     at, end = top, top + thickness
     while end - at > 1e-9:
-        wide = max(THINNEST, PER_DEPTH * at)
+        wide = max(thinnest, per_depth * at)
         # What is left over joins the last part, unless it is half of one.
         wide = end - at if end - at < 1.5 * wide else wide
         sizes.append(wide)

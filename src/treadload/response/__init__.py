@@ -8,6 +8,7 @@ from treadload.response.material import MATERIAL_LENGTH
 from treadload.response.passes.drum import roll_drum
 from treadload.response.passes.solution import Passes
 from treadload.response.passes.solve import roll_passes
+from treadload.response.settle import SettledModuli, settle
 from treadload.response.solution import Response
 from treadload.response.solve import solve_response
 from treadload.response.superposition import map_grid
@@ -19,6 +20,7 @@ __all__ = [
     "Heterogeneous",
     "Passes",
     "Response",
+    "SettledModuli",
     "UniformDisc",
     "UniformRectangle",
     "axle",
@@ -28,6 +30,7 @@ __all__ = [
     "place_load",
     "roll_drum",
     "roll_passes",
+    "settle",
     "solve_response",
     "tandem",
 ]

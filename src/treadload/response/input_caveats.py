@@ -21,7 +21,7 @@ _SOFT = 1e9
 def road_doubts(road: Pavement) -> tuple[str, ...]:
     """Sentences on the layers of a road at its temperature."""
     warnings: tuple[str, ...] = ()
-    for number, layer in enumerate(road.layers):
+    for number, layer in enumerate(road.at_nominal_stress.layers):
         material = layer.resolved
         modulus, poisson = upright(limit_of(material, "glassy"))
         place = f"layer {number + 1}" + (f" ({layer.name})" if layer.name else "")

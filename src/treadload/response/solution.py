@@ -15,6 +15,7 @@ from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement, methods_of
 from treadload.response.fields import COMPONENTS, angle_in_words, direction_in_words, kind_of_points, layer_in_words
 from treadload.response.loads import PlacedLoad
+from treadload.response.sublayers import sublayer_rows
 from treadload.rows import Place, Row, row
 
 _FIELDS = " ".join(
@@ -56,6 +57,8 @@ class Response(BaseResult, group="response"):
             f"{_FIELDS} displacement_x displacement_y displacement_z": "depth @",
             "dissipated_energy": "depth y",
             "layer": "depth",
+            "sublayer_top sublayer_bottom sublayer_modulus sublayer_bulk_stress sublayer_deviator_stress": "sublayer",
+            "sublayer_layer": "sublayer",
         },
         finite="layer",
         bounded=f"{_FIELDS} principal_strain_1 in_plane_strain_1 in_plane_angle_1 principal_direction_1",
@@ -92,14 +95,17 @@ class Response(BaseResult, group="response"):
         )
 
     def rows(self) -> tuple[Row, ...]:
-        """Largest tensile strain at each depth, three-dimensional and in the horizontal plane, with its place."""
+        """Largest tensile strain at each depth, in space and in the horizontal plane, with its place; then moduli.
+
+        The moduli are those of stress-dependent layers, if the road has any.
+        """
         lines = []
         for number, depth in enumerate(self.dataset["depth"].values):
             plane = self.dataset.isel(depth=number)
             side = layer_in_words(plane)
             group = f"depth {depth * 1e3:g} mm{f' ({side})' if side else ''}"
             lines += strain_rows(plane, group)
-        return tuple(lines)
+        return (*lines, *sublayer_rows(self.dataset))
 
     def cites(self) -> tuple[str, ...]:
         """Methods of the stresses, and of the road's materials and bonds."""

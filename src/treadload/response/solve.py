@@ -24,8 +24,10 @@ from treadload.response.layered import View
 from treadload.response.loads import GridLoad, Load, UniformRectangle, gather
 from treadload.response.material import check_length
 from treadload.response.moving import at_speed
+from treadload.response.settle import settle
 from treadload.response.several import Question, answers
 from treadload.response.solution import Response
+from treadload.response.sublayers import sublayer_fields
 from treadload.response.superposition import common_grid, merged
 
 
@@ -46,7 +48,8 @@ def solve_response(
 
     loads: a contact, a dataset with pressure, traction_x and traction_y (Pa) over y and x, a GridLoad, a
     UniformDisc, a UniformRectangle, or a list of these, whose responses add up in one pass. road: a half-space
-    or layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`.
+    or layers; half-bonded interfaces make it the mean of two responses, see `Pavement.bond_limits`; stress-dependent
+    layers have the moduli of these loads, see `settle`, and the road of the result is the settled one.
     depths: m, >= 0, 0 is the surface.
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. points: instead of x and y, (n, 2), a list of places (x, y), m: lines that cross, or anywhere.
@@ -71,7 +74,7 @@ def solve_response(
     passage dissipates, NaN at the surface; it has no mean.
     Raises InputError for a wrong value, a speed that is missing or negative, a layer that needs a temperature or
     is a fluid, depths below a rigid base and depths that need too many wavenumbers; ConvergenceError where stress or
-    strain would not be a number.
+    strain would not be a number, and for a stress-dependent layer whose modulus does not settle.
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.half_space.interior`;
     on layers the same with the top layer's material, plus wavenumbers, see `kernels.layers.layered`; under
     moving loads see `kernels.layers.moving`.
@@ -79,6 +82,9 @@ def solve_response(
     start = time.perf_counter()
     if side not in ("above", "below"):
         raise InputError(f'side must be "above" or "below", got {side!r}')
+    superposed = gather(loads)
+    if road.depends_on_stress:
+        road = settle(superposed, road, speed=speed).road
     at_depths = _coordinates("depths", depths)
     if (at_depths < 0).any():
         raise InputError(f"depths must not be negative, got {at_depths.min():g} m; depth counts downwards")
@@ -89,7 +95,6 @@ def solve_response(
             f"{counts.max()} times"
         )
     layers = [road.layer_at(float(depth), side) for depth in at_depths]
-    superposed = gather(loads)
     at = None
     if points is None:
         grid = common_grid(superposed) if x is None or y is None else None
@@ -129,6 +134,7 @@ def solve_response(
         **({} if speed is None else {"speed": float(speed)}),
         **({} if read is None else {"mean_over": mean_over, "read_from": read.low, "read_to": read.high}),
     )
+    dataset = dataset.assign(sublayer_fields(road).data_vars)
     if speed is not None and read is None:
         energy, line = (solved.energy, "y") if at is None else (solved.energy[:, at.rows], "point")
         dataset["dissipated_energy"] = (("depth", line), energy, variables.attributes("dissipated_energy"))

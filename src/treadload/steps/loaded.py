@@ -18,7 +18,7 @@ from treadload.footprint import Footprint
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
-from treadload.response import GridLoad, Response, map_grid, solve_response
+from treadload.response import GridLoad, Response, map_grid, settle, solve_response
 from treadload.response.superposition import mean_loads
 from treadload.tire import Tire
 
@@ -60,7 +60,7 @@ def contact_of(
 
 @dataclass(frozen=True, eq=False)
 class Loaded:
-    """A road under the wheels of a case, ready to be read anywhere.
+    """A road under the wheels of a case, ready to be read anywhere; stress-dependent layers have settled moduli.
 
     contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
     enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks. touch: solves
@@ -155,7 +155,11 @@ def load_case(case: Case, tell: Progress, *, contact: Contact | None = None, tou
         tell("reading the footprint")
         footprint = case.footprint.read(case.folder)
         wheel = footprint.load
-    return Loaded(case, road, contact, footprint, wheel, case.response.place(wheel), tell, enveloped, touch)
+    wheels = case.response.place(wheel)
+    if road.depends_on_stress:
+        tell("moduli of the stress-dependent layers")
+        road = settle(wheels, road, speed=case.speed if road.is_viscoelastic else None).road
+    return Loaded(case, road, contact, footprint, wheel, wheels, tell, enveloped, touch)
 
 
 def judge(load: Loaded, response: Response) -> Verdict:

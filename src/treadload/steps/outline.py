@@ -47,8 +47,8 @@ class Outline:
 
     @cached_property
     def road(self) -> Pavement:
-        """The road of the case."""
-        return self.case.road()
+        """The road of the case, stress-dependent layers under the stress of a usual truck."""
+        return self.case.road().at_nominal_stress
 
     @cached_property
     def wheel(self) -> GridLoad:

@@ -84,6 +84,9 @@ def _line(response: Response, members: slice, along: str) -> Response:
     coordinates["layer"] = ("depth", points["layer"].to_numpy(), points["layer"].attrs)
     fields: dict[Hashable, tuple[Any, ...]] = {}
     for name, part in points.data_vars.items():
+        if "depth" not in part.dims:
+            # Of the road, as moduli of sublayers are: with the map.
+            continue
         values, more = part.to_numpy(), part.dims[2:]
         if name == "dissipated_energy":
             # The same all along x.

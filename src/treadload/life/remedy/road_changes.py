@@ -11,7 +11,7 @@ from treadload.life.design import Design
 from treadload.life.remedy.changes import Change, NotApplicable, Remedy
 from treadload.life.remedy.steps import RemedySteps
 from treadload.life.variants import names_of, stiffer
-from treadload.materials import HydraulicMix, Mix, Unbound
+from treadload.materials import HydraulicMix, Mix, Unbound, UnboundByStress
 from treadload.materials.kinds import AnyElastic
 from treadload.materials.library import mixes
 from treadload.materials.mixture import RoadMaterial
@@ -102,7 +102,8 @@ def _use(material: RoadMaterial) -> str:
 
 
 def _rank(material: RoadMaterial) -> tuple[float, float]:
-    modulus = material.modulus(_COMPARED) if isinstance(material, Mix) else material.modulus
+    solid = material.nominal if isinstance(material, UnboundByStress) else material
+    modulus = solid.modulus(_COMPARED) if isinstance(solid, Mix) else solid.modulus
     strength: float | None = getattr(material, "epsilon_6", getattr(material, "sigma_6", None))
     return round(float(modulus)), 0.0 if strength is None else float(strength)
 
