@@ -479,6 +479,8 @@ _CLIMATE = {
 _GROWTH = {
     "direction_years": ("1", "years until a crack of a direction has come so deep, where it is through first"),
     "direction_y": ("m", "place where a crack of a direction is through first"),
+    "direction_earliest_years": ("1", "years until a crack of a direction starts, where it starts first"),
+    "direction_earliest_y": ("m", "place where a crack of a direction starts first"),
     "earliest_years": ("1", "years until the first crack of any place starts"),
     "earliest_y": ("m", "place where a crack starts first"),
     "crack_depth": ("m", "depth of a crack's tip from its mouth"),
@@ -755,6 +757,7 @@ _DISPLAYS_LIFE = {
     "crack_depth": Display("crack depth", "mm", ".1f"),
     "reach_years": Display("reached after", "", years_in_words),
     "direction_years": Display("crack is through after", "", years_in_words),
+    "direction_earliest_years": Display("crack starts after", "", years_in_words),
     "earliest_years": Display("first crack elsewhere after", "", years_in_words),
     "mechanics_years": Display("mechanics alone", "", years_in_words),
     "field_years": Display("years of roads", "", lambda y: f"{y:.2g} years" if y <= LASTS else years_in_words(y)),

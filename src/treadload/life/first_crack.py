@@ -51,11 +51,10 @@ def first_cracks(design: Design, life: Life, passages: Passages, workers: int | 
     count = len(life.criteria)
     fields = {name: np.full((count, len(DIRECTIONS)), np.nan) for name in _REPETITIONS}
     shares = np.full((count, len(CAUSES)), np.nan)
-    cache: dict[tuple[object, ...], _Solved | None] = {}
+    cache: dict[tuple[object, ...], SolvedPassage | None] = {}
     for k, criterion in enumerate(life.criteria):
         damage = life.dataset["damage_share"].to_numpy()[k]
-        at_surface = criterion.place == "top" and criterion.number(design.road) == 0 and criterion.quantity.extends
-        if not at_surface or not damage.max() > 0:
+        if not opens_at_surface(criterion, design.road) or not damage.max() > 0:
             continue
         row, season = (int(number) for number in np.unravel_index(int(damage.argmax()), damage.shape))
         law = life.class_laws[k][row][season]
@@ -65,7 +64,7 @@ def first_cracks(design: Design, life: Life, passages: Passages, workers: int | 
         if braked is None:
             continue
         for number, direction in enumerate(DIRECTIONS):
-            whole, _, largest = braked.harm(partial(_strain_across, _ACROSS[direction]), law)
+            whole, _, largest = braked.harm(strain_across(direction), law)
             spread = wander.spread(whole, braked.spacing)
             margin = (len(spread) - len(whole)) // 2
             most = int(spread.argmax())
@@ -82,27 +81,37 @@ _REPETITIONS = ("crack_repetitions", "crack_place", "crack_strain")
 
 
 @dataclass(frozen=True, eq=False)
-class _Solved:
-    """A passage of a class in a season with what a criterion reads near and far."""
+class SolvedPassage:
+    """A passage of a class in a season with what its first criterion evaluates near and far."""
 
     task: Passing
     lines: Lines
     basin: Basin
     fields: tuple[xr.Dataset, xr.Dataset, xr.Dataset]
 
+    @classmethod
+    def of(cls, task: Passing) -> SolvedPassage | None:
+        """Of a class on a road; None where the criterion has no basin."""
+        read = near_and_far(task, 0)
+        return None if read is None else cls(task, *read)
+
     @property
     def y(self) -> Array:
+        """Across travel, evenly spaced, m."""
         return self.task.y
 
     @property
     def spacing(self) -> float:
+        """Of y, m."""
         return float(self.y[1] - self.y[0])
 
     @property
     def criterion(self) -> Criterion:
+        """As these wheels roll by."""
         return self.task.criterion(0)
 
     def followed(self, evaluated: Evaluated) -> Followed:
+        """Values of a field and its tension along the lines."""
         power = power_of(self.criterion)
         over = self.criterion.mean_over
         return Followed.of(evaluated, self.fields, self.task.wheels, self.lines, self.basin, over, power)
@@ -128,9 +137,18 @@ def _cycles(read: Array, far: BoolArray, law: FatigueLaw) -> tuple[Array, Array]
     return harm.sum(axis=1), np.where(away, harm, 0.0).sum(axis=1)
 
 
-def _strain_across(name: str, data: xr.Dataset) -> tuple[Array, Array | None]:
-    """The normal strain across a crack, and the tension without which none opens, Pa."""
-    return part(data, name), tension(data)
+def opens_at_surface(criterion: Criterion, road: Pavement) -> bool:
+    """Whether a criterion reads a tensile strain at the top of a road."""
+    return criterion.place == "top" and criterion.number(road) == 0 and criterion.quantity.extends
+
+
+def strain_across(direction: str) -> Evaluated:
+    """The normal strain across a crack of a direction, and the tension without which none opens, Pa."""
+
+    def evaluated(data: xr.Dataset) -> tuple[Array, Array | None]:
+        return part(data, _ACROSS[direction]), tension(data)
+
+    return evaluated
 
 
 def _solved(
@@ -139,10 +157,10 @@ def _solved(
     row: int,
     season: int,
     passages: Passages,
-    cache: dict[tuple[object, ...], _Solved | None],
+    cache: dict[tuple[object, ...], SolvedPassage | None],
     *,
     freely: bool = False,
-) -> _Solved | None:
+) -> SolvedPassage | None:
     """A passage of a class by number in a season, rolling freely or as it does; None where it has no basin."""
     climate, axle_class = design.climate.seasons[season], design.traffic.classes[row]
     criterion = design.criteria[number]
@@ -154,8 +172,7 @@ def _solved(
     warm = warmed(design.road, (criterion,), climate, axle_class)
     wheels = _free(design, axle_class, warm.road, y) if freely else passages.wheels[row]
     task = Passing(wheels, warm, y, passages.readings.sizes["turn"], passages.reach)
-    read = near_and_far(task, 0)
-    cache[key] = None if read is None else _Solved(task, *read)
+    cache[key] = SolvedPassage.of(task)
     return cache[key]
 
 
@@ -176,9 +193,9 @@ def rolling_freely(maneuver: Maneuver) -> Maneuver:
 
 
 def _causes(
-    solve: Callable[..., _Solved | None],
+    solve: Callable[..., SolvedPassage | None],
     axle_class: AxleClass,
-    braked: _Solved,
+    braked: SolvedPassage,
     law: FatigueLaw,
     wander: Wander,
     worst: float,
@@ -199,7 +216,7 @@ def _causes(
     return np.array([hogging, 1 - force - hogging, force])
 
 
-def _at_place(solved: _Solved, law: FatigueLaw, wander: Wander, place: float) -> tuple[float, float]:
+def _at_place(solved: SolvedPassage, law: FatigueLaw, wander: Wander, place: float) -> tuple[float, float]:
     """Damage of a passage after wander at a place, m, and of it what is evaluated far from the footprints."""
     reach = (len(wander.weights(solved.spacing)) - 1) // 2
     column = round((place - float(solved.y[0])) / solved.spacing) + reach

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from treadload import variables
 from treadload.damage.climate import MONTHS
@@ -32,7 +31,6 @@ from treadload.damage.growth.laws import GrowthLaw, ParisLaw, law_of_mix
 from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.life import Life
-from treadload.damage.thermal import passes_until
 from treadload.damage.words import DIRECTIONS
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
@@ -42,6 +40,7 @@ from treadload.kernels.largest import index_of_largest
 from treadload.life.climate import warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.crack_caveats import at_the_end, cautions
+from treadload.life.crack_starts import damage_across, passes_of_the_year, passes_to_start, scatter_of_start
 from treadload.life.crossings import (
     CrackLines,
     between_rows,
@@ -51,6 +50,8 @@ from treadload.life.crossings import (
     stresses,
 )
 from treadload.life.design import Design
+from treadload.life.first_crack import opens_at_surface
+from treadload.life.passage import Passing, turns_of
 from treadload.life.seasons import Warm, Warmed, roads_of
 from treadload.life.thermal_growth import Ends, daily_intensity
 from treadload.life.threads import pool_of
@@ -63,7 +64,6 @@ from treadload.response.basin import basin_reach
 
 # Depths that a result tells between initiation and the end, m apart at least.
 _STEP = 0.005
-_SCATTER = 0.25
 _DAILY = (
     "crack growth: daily thermal stress adds one cycle a day, the mean day of each month without a wheel; wheels "
     "that pass while the weather pulls are not read on top of it"
@@ -87,9 +87,26 @@ def grow_cracks(
     growth law a length per passage; these are summed over shares and spread over the tracks of the traffic.
     Raises InputError, and ConvergenceError of a contact and of faces that do not settle.
     """
-    if growth.trace == "both":
-        solve = functools.partial(grow_cracks, design, life, workers=workers, progress=progress)
-        return side_by_side({name: solve(replace(growth, trace=name)) for name in DIRECTIONS}, growth)  # type: ignore[arg-type]
+    solve = functools.partial(_grow, design, life, workers=workers, progress=progress)
+    if growth.trace != "both":
+        return solve(growth)
+    alone = {name: solve(replace(growth, trace=name), direction=name) for name in DIRECTIONS}  # type: ignore[arg-type]
+    return side_by_side(alone, growth)
+
+
+def _grow(
+    design: Design,
+    life: Life,
+    growth: CrackGrowth,
+    *,
+    direction: str | None = None,
+    workers: int | None = None,
+    progress: Progress | None = None,
+) -> Growth:
+    """The growth of a crack of one trace, see `grow_cracks`.
+
+    direction: whose cracks start it, where the criterion reads a tensile strain at the surface; left out, any.
+    """
     start = time.perf_counter()
     tire, road, contacts = design.tire, design.road, design.contacts
     criterion, number = _criterion(life, growth.criterion)
@@ -163,10 +180,17 @@ def grow_cracks(
             return np.stack(stack), jammed
 
         read = list(pool.map(ranges_of, crossings))
+        damage = None
+        if direction is not None and opens_at_surface(criterion, road):
+            turns = turns_of(wheels)
+            passings = {
+                (row, node): Passing(wheels[row], warm.by_class[row][node].reading([number]), y, turns, reach)
+                for row, node in tasks
+            }
+            damage = damage_across(life, number, direction, passings, warm, pool)
     ranges_by_task = {task: ranges for task, (ranges, _) in zip(tasks, read, strict=True)}
     jammed = sum(stuck for _, stuck in read)
     rows = {task: crossing.y for task, crossing in zip(tasks, crossings, strict=True)}
-    fine = life.dataset["y"].to_numpy()
     spacing = float(y[1] - y[0])
     _, slopes = way.at(solved)
     rate = np.zeros((len(solved), len(y)))
@@ -186,7 +210,7 @@ def grow_cracks(
     daily = daily_intensity(road, life.climate, distances, way, solved, growth, Ends(top, bottom, upwards=upwards))
     margin = (wide.shape[-1] - rate.shape[-1]) // 2
     places = y[0] + spacing * (np.arange(wide.shape[-1]) - margin)
-    initiation = _passes_to_start(life, number, fine, places)
+    initiation = passes_to_start(life, number, places, damage)
     targets = _targets(length, thickness)
     by_weather = np.zeros(len(solved))
     if daily is not None:
@@ -196,9 +220,9 @@ def grow_cracks(
 
         by_weather = daily.yearly_growth(cycle) / np.hypot(1.0, slopes)
         # A year of the weather is shared between the passes of the year in which the crack starts.
-        wide = wide + by_weather[:, None] / _passes_of_the_year(life, initiation)
+        wide = wide + by_weather[:, None] / passes_of_the_year(life, initiation)
     passes = grown(*refined(solved, wide), targets)
-    scatter, at_risk = _scatter(criterion, growth)
+    scatter, at_risk = scatter_of_start(criterion, growth)
     growth_scatter = max(law.scatter for law in laws)
     every = max(1, round(0.008 / spacing))
     # One place from the first crack to its full depth: where the way is done first; and others, a few of them.
@@ -354,40 +378,12 @@ def _way(
     return crack_paths([chosen], np.ones(1), place, solved, trace, growth.friction)
 
 
-def _passes_to_start(life: Life, number: int, fine: Array, places: Array) -> Array:
-    """Passes until the damage at each place is 1, at the places."""
-    weather = life.weather_damage(number)
-    damage = life.dataset["damage_per_year"].to_numpy()[number] - weather
-    there = np.interp(places, fine, damage, left=0.0, right=0.0)
-    return passes_until(life.traffic, there, weather)
-
-
-def _passes_of_the_year(life: Life, initiation: Array) -> Array:
-    """Passes of the traffic in the year that begins with each number of passes (ny,); inf where that never comes."""
-    traffic = life.traffic
-    starts = [traffic.years_to(float(passes)) for passes in initiation]
-    return np.array(
-        [traffic.passes(year + 1) - traffic.passes(year) if math.isfinite(year) else math.inf for year in starts]
-    )
-
-
 def _targets(length: float, thickness: float) -> Array:
     """Depths that are told: of initiation, every so many mm, the end."""
     step = _STEP * max(1, math.ceil((thickness - length) / _STEP / 12))
     between = step * np.arange(math.floor(length / step) + 1, math.ceil(thickness / step - 1e-9))
     inside = between[(between > length + 1e-4) & (between < thickness - 1e-4)]
     return np.round(np.concatenate([[length], inside, [thickness]]), 9)
-
-
-def _scatter(criterion: Criterion, growth: CrackGrowth) -> tuple[float, float]:
-    """Standard deviation of log₁₀ of the passes to initiation, and the normal deviate of the law's own risk."""
-    law = criterion.law_at(15.0)
-    law_scatter = getattr(law, "scatter", None)
-    scatter = (
-        growth.scatter if growth.scatter is not None else law_scatter if isinstance(law_scatter, float) else _SCATTER
-    )
-    risk = getattr(law, "risk", None)
-    return float(scatter), float(scipy.special.ndtri(risk)) if isinstance(risk, float) else 0.0
 
 
 def _in_words(road: Pavement, growth: CrackGrowth, layer: int, trace: float, upwards: bool) -> str:

@@ -28,6 +28,14 @@ def side_by_side(by_direction: Mapping[str, Growth], growth: CrackGrowth) -> Gro
     fields = {
         "direction_years": (("direction", "crack_depth"), np.array(years), variables.attributes("direction_years")),
         "direction_y": (("direction",), np.array(places), variables.attributes("direction_y")),
+        **{
+            f"direction_{name}": (
+                ("direction",),
+                np.array([float(grown.dataset[name]) for grown in by_direction.values()]),
+                variables.attributes(f"direction_{name}"),
+            )
+            for name in ("earliest_years", "earliest_y")
+        },
     }
     dataset: xr.Dataset = first.dataset.assign(fields).assign_coords(direction=names)
     stats = dict(first.stats)

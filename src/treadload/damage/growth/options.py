@@ -26,10 +26,11 @@ class CrackGrowth:
     layer up. initial_length: m, of the crack then; left out, the length over which the criterion reads, which is what
     has failed, or 10 mm. law: of growth; left out, that of each layer's mix. trace: "longitudinal", "transverse", an
     angle, rad, from travel towards the right, or left out that of the criterion's first crack; "both" for a
-    longitudinal and a transverse crack side by side, which start alike where the criterion's damage is 1. path:
-    "vertical";
-    "kinked", each step across the largest hoop stress; or an angle, rad, from the vertical, positive to the right of
-    the trace. friction: between the faces. layers: that the crack goes through, counted from where it starts.
+    longitudinal and a transverse crack side by side. A crack starts where the criterion's damage is 1, whichever way
+    the strain points; of "both" each where the damage by the strain across it is, if the criterion reads a tensile
+    strain at the surface. path: "vertical"; "kinked", each step across the largest hoop stress; or an angle, rad,
+    from the vertical, positive to the right of the trace. friction: between the faces. layers: that the crack goes
+    through, counted from where it starts.
     steps: lengths at which its stress intensity is solved. points: along the crack at which its faces may open,
     touch and rub. scatter: standard deviation of log₁₀ of the passes to
     initiation; left out, that of the criterion's law or 0.25. Raises InputError.

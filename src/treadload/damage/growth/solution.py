@@ -31,8 +31,9 @@ class Growth(BaseResult, group="growth"):
     starts first, which may be another place; risk_years (risk, crack_depth) at worst_y; where the road
     has a design life reach_chance (crack_depth); stress_intensity_range (axle_class, solved_depth, mode) at worst_y
     with no wander, in the season where it is largest; crack_offset (crack_depth), of a path that is not vertical.
-    Where both directions grow side by side, direction_years (direction, crack_depth) and direction_y (direction), the
-    rest being that of the crack which is through first.
+    Where both directions grow side by side, direction_years (direction, crack_depth) and direction_y (direction) of
+    each where it is through first, direction_earliest_years and direction_earliest_y (direction) where it starts
+    first; the rest is that of the crack which is through first.
     Where the climate asks for daily thermal stress: thermal_intensity_range (month, solved_depth), Pa √m, and what it
     adds, thermal_growth_rate (solved_depth), m per year, which growth_rate contains as shared between the passes of
     the year in which the crack starts.
@@ -58,7 +59,7 @@ class Growth(BaseResult, group="growth"):
             "reach_chance": "crack_depth",
             "earliest_years earliest_y": "",
             "direction_years": "direction crack_depth",
-            "direction_y": "direction",
+            "direction_y direction_earliest_years direction_earliest_y": "direction",
             "thermal_growth_rate": "solved_depth",
             "thermal_intensity_range": "month solved_depth",
         },
@@ -123,22 +124,30 @@ class Growth(BaseResult, group="growth"):
             rows.append(row("thermal_intensity_range", float(daily.max()), note=month))
         rows.append(row("worst_y", data["worst_y"], note="first through here, and started here"))
         rows += self._elsewhere()
-        if "direction_years" in data and "direction_y" in data:
-            rows += [
-                row(
-                    "direction_years", years, label=f"{name} crack is through after", note=f"at y = {1e3 * y:z.0f} mm"
-                )
-                for name, years, y in zip(
-                    data["direction"].to_numpy(),
-                    data["direction_years"].to_numpy()[:, -1],
-                    data["direction_y"].to_numpy(),
-                    strict=True,
-                )
-            ]
+        rows += self._directions()
         if self._chance is not None:
             years = f"{float(data.attrs['design_years']):g} years"
             rows.append(row("reach_chance", self._chance, note=years))
         return (*rows, row("verdict", self._verdict()))
+
+    def _directions(self) -> list[Row]:
+        """When and where a crack of each direction starts first and is through first, if both grow side by side."""
+        data, rows = self.dataset, []
+        stages = (
+            ("starts", "direction_earliest_years", "direction_earliest_y"),
+            ("is through", "direction_years", "direction_y"),
+        )
+        for verb, key, place in stages:
+            if key not in data or place not in data:
+                continue
+            by_direction = data[key].to_numpy().reshape(data.sizes["direction"], -1)[:, -1]
+            rows += [
+                row(key, years, label=f"{name} crack {verb} after", note=f"at y = {1e3 * y:z.0f} mm")
+                for name, years, y in zip(
+                    data["direction"].to_numpy(), by_direction, data[place].to_numpy(), strict=True
+                )
+            ]
+        return rows
 
     def _elsewhere(self) -> list[Row]:
         """Where another crack starts earlier, which is through later; none where the same is first in both."""
