@@ -18,6 +18,7 @@ import xarray as xr
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.blocks import belt_alone
+from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.fields import loads, tractions
 from treadload.contact.numerics import Numerics, NumericsKeys
@@ -28,6 +29,7 @@ from treadload.contact.solve import DEFAULT_SPACING, place
 from treadload.contact.solvers.marching import State
 from treadload.errors import ConvergenceError, GeometryError, InputError, positive
 from treadload.grid import Grid
+from treadload.kernels.arrays import Array
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
@@ -265,7 +267,7 @@ def _check(rolling: Rolling, positions: int, tolerance: float, periodic: float) 
         rolling.check_friction_limit(rolling.normal_load)
 
 
-def _window(tire: Tire, tread: LuggedTread, rolling: Rolling, road: Any, cells: tuple[float | None, int]) -> Window:
+def _window(tire: Tire, tread: LuggedTread, rolling: Rolling, road: Body, cells: tuple[float | None, int]) -> Window:
     """The window that holds the contact on its way through a pitch, with a block beyond on both sides."""
     spacing, positions = cells
     step = DEFAULT_SPACING if spacing is None else spacing
@@ -322,7 +324,7 @@ def _dataset(window: Window, rolling: Rolling, passage: Sequence[State], change:
     return data.assign_attrs(pitch=window.pattern.period, change=change)
 
 
-def _row(window: Window, rolling: Rolling, state: State, axle: float) -> dict[str, Any]:
+def _row(window: Window, rolling: Rolling, state: State, axle: float) -> dict[str, float | Array]:
     """What a position has."""
     grid, tangential, pressed = window.grid, state.tangential, state.pressure > 0
     shear = tangential.shear

@@ -203,13 +203,13 @@ def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[Sta
         yield state
 
 
-def _row(scene: Scene, state: State, rolling: Rolling, distance: float, fields: bool) -> dict[str, Any]:
+def _row(scene: Scene, state: State, rolling: Rolling, distance: float, fields: bool) -> dict[str, float | Array]:
     travel = state.stage.travel
     rigid = state.stage.rigid.mean((1, 2)) + np.array(state.displaced)
     solved = np.array(state.displaced) / travel if travel > 0 else np.full(2, np.nan)
     imposed = np.array(rolling.creepages)
     creepages = np.where([force is None for force in state.stage.forces], imposed, solved) if travel > 0 else solved
-    row: dict[str, Any] = {
+    row: dict[str, float | Array] = {
         "distance": distance,
         "creepage_x": float(creepages[0]),
         "creepage_y": float(creepages[1]),

@@ -9,14 +9,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.eigenstrain.operator import Grid as Cells
-from treadload.kernels.eigenstrain.operator import cells, moved_by_cells
+from treadload.kernels.eigenstrain.operator import Operator, cells, moved_by_cells
 from treadload.kernels.gridding.below import Below
 from treadload.kernels.half_space.interior import fields_on_grid
 from treadload.kernels.plasticity.state import State
@@ -107,7 +106,7 @@ class Yielding:
     zone: Zone
 
     @cached_property
-    def stress_of_strain(self) -> Any:
+    def stress_of_strain(self) -> Operator:
         """Stress of plastic strain, both in the zone."""
         (rows, across, along), grid = self.zone.cut, self.ground.grid
         edges = self.ground.edges[rows.start : rows.stop + 1]
@@ -116,7 +115,7 @@ class Yielding:
         return cells(block, elastic.shear_modulus, elastic.poisson, single=True)
 
     @cached_property
-    def _moved(self) -> Any:
+    def _moved(self) -> Operator:
         rows, grid = self.zone.cut[0], self.ground.grid
         edges = self.ground.edges[rows.start : rows.stop + 1]
         return moved_by_cells(Cells(grid.nx, grid.ny, grid.dx, grid.dy, edges), self.ground.material.elastic.poisson)

@@ -86,7 +86,7 @@ def _law(name: str, package: str) -> Listed:
         reads_text += ", or another of its kind"
     arguments = "; ".join(filter(None, (reads_text, _numbers(CRITERIA, name))))
     source, ends = (_text(kind, key) for key in ("source", "end_of_life"))
-    unit = _unit(reads) if has_quantity else "any"
+    unit = _unit(reads) if isinstance(reads, Quantity) else "any"
     return Listed(name, _first(target), unit, arguments, source, _text(kind, "calibrated") or USERS, ends, package)
 
 
@@ -113,7 +113,7 @@ def _first(target: object) -> str:
     return (inspect.getdoc(target) or "").split("\n")[0].rstrip(".")
 
 
-def _unit(quantity: Any) -> str:
+def _unit(quantity: Quantity) -> str:
     return str(quantity.shown or ("" if quantity.unit == "1" else quantity.unit))
 
 

@@ -23,7 +23,7 @@ from treadload.damage.words import (
     criteria_attributes,
 )
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, Reals
 from treadload.kernels.largest import index_of_largest
 
 
@@ -271,5 +271,5 @@ def _cracks(
     }
 
 
-def _over(part: Any, whole: float) -> Any:
+def _over(part: Reals, whole: float) -> Reals:
     return part / whole if whole > 0 else np.zeros_like(part)

@@ -23,7 +23,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from types import MappingProxyType
-from typing import Any, Literal, Self
+from typing import Literal, Self
 
 import numpy as np
 import xarray as xr
@@ -223,7 +223,7 @@ class Quantity(ABC):
         return quantity(value, {"1": "", "J/m^3": "Pa"}.get(self.unit, self.unit))
 
     @property
-    def about(self) -> dict[str, Any]:
+    def about(self) -> dict[str, object]:
         """What a file says of it, so that its readings are understood without this program."""
         shown = self.shown or ("" if self.unit == "1" else self.unit)
         return {

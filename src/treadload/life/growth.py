@@ -56,8 +56,7 @@ from treadload.life.seasons import Warm, Warmed, roads_of
 from treadload.life.thermal_growth import Ends, daily_intensity
 from treadload.life.threads import pool_of
 from treadload.life.wheels import across, states_of, wheels_of
-from treadload.materials.kinds import limit_of, upright
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part, limit_of, upright
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.basin import basin_reach

@@ -10,7 +10,7 @@ import numpy as np
 import scipy
 
 from treadload.damage.criterion import Criterion, Side
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import BESIDE_STEP, Basin
 from treadload.life.peaks import Strips
 from treadload.life.wheels import MARGIN, Wheels
@@ -67,7 +67,7 @@ class Lines:
     ordered: Any
 
     @classmethod
-    def of(cls, plane: Plane, wheels: Wheels, rows: Any, y: Array, basin: Basin | None) -> Lines:
+    def of(cls, plane: Plane, wheels: Wheels, rows: IntArray, y: Array, basin: Basin | None) -> Lines:
         """With strips where means near the surface are read."""
         fine = plane.mean_over is not None and wheels.cell <= plane.mean_over and not plane.stride
         places = y[rows] if basin is None else np.concatenate([y[rows], basin.rows])
@@ -93,7 +93,7 @@ def straight(places: Array, y: Array) -> scipy.sparse.csr_array:
     return scipy.sparse.csr_array((weights, columns, np.arange(0, len(columns) + 1, 2)), shape=(len(y), len(places)))
 
 
-def nearest_of(places: Array, y: Array) -> Any:
+def nearest_of(places: Array, y: Array) -> IntArray:
     """The nearest of rising places to each y, by number."""
     behind = np.clip(np.searchsorted(places, y), 1, len(places) - 1)
     return behind - (y - places[behind - 1] < places[behind] - y)
@@ -124,7 +124,7 @@ def along(wheels: Wheels, plane: Plane) -> Array:
     return np.unique(np.round(np.concatenate(places), 9))
 
 
-def rows_of(wheels: Wheels, y: Array, plane: Plane) -> Any:
+def rows_of(wheels: Wheels, y: Array, plane: Plane) -> IntArray:
     """Which values of y to solve: every cell under and beside a wheel; few elsewhere, and everywhere at depth.
 
     None further than the margin from the wheels.

@@ -14,7 +14,7 @@ import xarray as xr
 
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import as_turns, rainflow, turning_points
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
 from treadload.life.followed import Followed, power_of
@@ -309,7 +309,9 @@ def _turns_of(read: Array, turns: int, power: float) -> Array:
     return as_turns(*rainflow(*turning_points(read)), turns, power)
 
 
-def _at(data: xr.Dataset, deep: Any, instant: Any, rows: Any = None) -> dict[str, tuple[tuple[str, ...], Array]]:
+def _at(
+    data: xr.Dataset, deep: IntArray, instant: IntArray, rows: IntArray | None = None
+) -> dict[str, tuple[tuple[str, ...], Array]]:
     """What a dataset has over all of depth, y and x, at one depth and one x for each y, or some, by their numbers."""
     # xarray's own way costs more than what is read.
     points = np.arange(len(instant)) if rows is None else rows

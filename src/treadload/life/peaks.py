@@ -14,7 +14,7 @@ import numpy as np
 import scipy
 
 from treadload.damage.quantity import cut
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 
 # Beside points of this part of the largest reading of a line a larger one may lie.
 _RIVAL = 0.8
@@ -52,7 +52,7 @@ class Strips:
         shape = (*lines.shape, 4)
         return cls(rows, y, _before(rows, y), columns.reshape(shape), weights.reshape(shape))
 
-    def onto(self, strips: Any) -> scipy.sparse.csr_array:
+    def onto(self, strips: IntArray) -> scipy.sparse.csr_array:
         """What makes values on the lines of some strips, one after the other, of those on the rows; in single
         precision, which readings do not need more than.
         """
@@ -62,12 +62,12 @@ class Strips:
         )
 
 
-def _before(rows: Array, y: Array) -> Any:
+def _before(rows: Array, y: Array) -> IntArray:
     """The last row before each y, of those with one behind it."""
     return np.clip(np.searchsorted(rows, y, side="right") - 1, 0, len(rows) - 2)
 
 
-def onto_lines(rows: Array, y: Array) -> tuple[Any, Array]:
+def onto_lines(rows: Array, y: Array) -> tuple[IntArray, Array]:
     """Four rows (ny, 4), by number, and their weights in the value at y.
 
     Cubics through four even rows, straight lines where these are uneven.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
@@ -22,7 +22,7 @@ from treadload.life.design import Design
 from treadload.life.seasons import Warmed, roads_of
 from treadload.life.wheels import Wheels
 from treadload.materials import PassesPowerLaw, Unbound
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement, TemperatureProfile, bituminous_thickness
 from treadload.response import solve_response
 
@@ -167,7 +167,7 @@ def _between(warmth: Array, solved: list[int], values: Array) -> Array:
     return result
 
 
-def _until(over: Any) -> float:
+def _until(over: Callable[[float], float]) -> float:
     low, high = 1e-3, _LONGEST
     if over(low) >= 0:
         return low

@@ -14,7 +14,7 @@ from treadload.damage.thermal import DAYS, DailyCycles, years_until
 from treadload.kernels.arrays import Array
 from treadload.life.design import Design
 from treadload.materials import Mix
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement
 
 FRESH_SLOPE = -0.2

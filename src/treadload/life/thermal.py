@@ -17,8 +17,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.thermal import periodic_stress, reduced_steps
 from treadload.life.seasons import layer_temperatures, warmed
 from treadload.materials import HydraulicMix, Mix, Thermorheological
-from treadload.materials.kinds import AnyElastic, upright
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part, upright
 from treadload.materials.series import as_prony
 from treadload.pavement import Pavement, TemperatureProfile
 from treadload.pavement.asphalt import is_bituminous

@@ -15,7 +15,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.seasons import Warm, warmed
 from treadload.life.thermal import daily_stress, instant
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement
 from treadload.pavement.asphalt import is_bituminous
 

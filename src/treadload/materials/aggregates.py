@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.materials.elastic import Elastic
 from treadload.tables import real_array
 
@@ -80,7 +80,7 @@ class Spheres:
         """Of all of them, m³."""
         return float(4 / 3 * math.pi * (self.radius**3).sum())
 
-    def numbers(self, x: Array, y: Array, z: Array) -> Any:
+    def numbers(self, x: Array, y: Array, z: Array) -> IntArray:
         """Number of the stone, from 1, that the centre of each cell is in, 0 for none, (nz, ny, nx). x, y, z: m."""
         result = np.zeros((len(z), len(y), len(x)), int)
         for number, (cx, cy, cz, r) in enumerate(zip(self.x, self.y, self.z, self.radius, strict=True), start=1):
@@ -251,12 +251,13 @@ class Aggregates:
             return _inside(self.packing, window)
         return _drawn(self.packing, window, present)
 
-    def numbers(self, spheres: Spheres | None, x: Array, y: Array, z: Array) -> Any:
+    def numbers(self, spheres: Spheres | None, x: Array, y: Array, z: Array) -> IntArray:
         """Number of the stone, from 1, of each cell, 0 for none, (nz, ny, nx). x, y, z: centres, m."""
         if spheres is not None:
             return spheres.numbers(x, y, z)
         assert isinstance(self.packing, Scanned)
-        return self.packing.numbers.copy()
+        stones: IntArray = self.packing.numbers.copy()
+        return stones
 
     def __str__(self) -> str:
         kind = "voids" if self.material is None else f"stones, {self.material}"
@@ -345,7 +346,9 @@ def _drawn(packing: Drawn, window: Window, present: Sequence[Spheres]) -> Sphere
     raise InputError(_no_room(packing, sizes[:most], planned, window))
 
 
-def _placed(generator: object, sizes: Array, packing: Drawn, window: Window, present: Sequence[Spheres]) -> Array:
+def _placed(
+    generator: np.random.Generator, sizes: Array, packing: Drawn, window: Window, present: Sequence[Spheres]
+) -> Array:
     """Places (n, 3) of the first n spheres of these sizes, as many as find room."""
     rows = [np.stack([spheres.x, spheres.y, spheres.z, spheres.radius], axis=1) for spheres in present]
     placed = np.concatenate([*rows, np.empty((0, 4))])
@@ -361,7 +364,7 @@ def _placed(generator: object, sizes: Array, packing: Drawn, window: Window, pre
     return result
 
 
-def _room(generator: Any, placed: Array, reach: float, low: Array, high: Array) -> Array | None:
+def _room(generator: np.random.Generator, placed: Array, reach: float, low: Array, high: Array) -> Array | None:
     """A place for a sphere among others, None where none is found."""
     for _ in range(_TRIES // _AT_ONCE):
         places = low + (high - low) * generator.random((_AT_ONCE, 3))

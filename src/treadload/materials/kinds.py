@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from numpy.typing import ArrayLike
 
@@ -41,7 +41,7 @@ class Viscoelastic(Protocol):
 class Surfaced(Protocol):
     """A material of a tire that makes the surface of its body itself: another kind of body than a half-space."""
 
-    def surface(self, *, is_tire: bool, speed: float | None) -> Any:
+    def surface(self, *, is_tire: bool, speed: float | None) -> object:
         """A `treadload.contact.bodies.Body` on the tire's side or the road's, rolling at a speed, m/s."""
 
 
@@ -72,3 +72,10 @@ def limit_of(material: Material, which: Literal["glassy", "rubbery"]) -> AnyElas
 def upright(material: AnyElastic) -> tuple[float, float]:
     """Young's modulus, Pa, and Poisson's ratio; of an anisotropic material those under vertical stress."""
     return material.upright if isinstance(material, Anisotropic) else (material.modulus, material.poisson)
+
+
+def elastic_part(
+    material: Material | TemperatureDependent | ElastoPlastic | StressDependent,
+) -> Material | TemperatureDependent | StressDependent:
+    """The elastic part of an elastoplastic material; any other material itself."""
+    return material.elastic if isinstance(material, ElastoPlastic) else material

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from typing_extensions import Protocol, runtime_checkable
@@ -309,11 +308,6 @@ class ElastoPlastic:
 
 
 PLASTICITY.makes(PlasticLaw, PassesPowerLaw)
-
-
-def elastic_part(material: object) -> Any:
-    """The elastic part of an elastoplastic material; any other material itself."""
-    return material.elastic if isinstance(material, ElastoPlastic) else material
 
 
 def _bulk(elastic: Elastic) -> float:

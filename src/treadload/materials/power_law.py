@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -15,6 +15,8 @@ from treadload.materials.elastic import Elastic
 from treadload.materials.operational import Operational, check_times
 from treadload.registry import MATERIALS
 from treadload.units import Compliance, Number, Time
+
+Powers = TypeVar("Powers", Array, ComplexArray)
 
 
 @MATERIALS.register("power-law-creep")
@@ -76,7 +78,7 @@ class PowerLawCreep(Operational):
         """The same material with its time τ multiplied by a factor > 0."""
         return replace(self, tau=self.tau * factor)
 
-    def _creep(self, power: Any) -> Any:
+    def _creep(self, power: Powers) -> Powers:
         """D where (t/τ)ⁿ is `power`, real or complex."""
         return (self.instantaneous_compliance + self.long_term_compliance * power) / (1 + power)
 

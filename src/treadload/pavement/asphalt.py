@@ -12,8 +12,7 @@ from treadload.materials import (
     TemperatureDependent,
     Unbound,
 )
-from treadload.materials.kinds import AnyElastic, upright
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part, upright
 from treadload.pavement.bonds import FRICTIONLESS
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement

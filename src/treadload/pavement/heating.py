@@ -14,7 +14,7 @@ from treadload.errors import ConvergenceError, InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.kernels.heat import conducted, graded, read_at
 from treadload.materials import HydraulicMix
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement.asphalt import is_bituminous
 from treadload.pavement.structure import Pavement
 from treadload.pavement.weather import Weather

@@ -8,8 +8,7 @@ from numbers import Real
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.materials import Anisotropic, ElastoPlastic, Material, Solid, StressDependent, TemperatureDependent
-from treadload.materials.kinds import AnyElastic
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
 
 _KINDS = (
@@ -87,7 +86,8 @@ class Layer:
                 f"layer {self.name!r} is {self.material}, and its modulus follows from the loads: solve_response "
                 "settles it, or take Pavement.at_nominal_stress for the moduli under a usual truck"
             )
-        material: Material = elastic_part(self.material)
+        material = elastic_part(self.material)
+        assert not isinstance(material, TemperatureDependent | StressDependent)
         return material
 
     @property

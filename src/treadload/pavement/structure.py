@@ -15,8 +15,8 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import SAME_DEPTH, layers_at
 from treadload.materials import Material, StressDependent, TemperatureDependent
 from treadload.materials.celsius import check_celsius
-from treadload.materials.kinds import AnyElastic, limit_of
-from treadload.materials.plastic import ElastoPlastic, elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part, limit_of
+from treadload.materials.plastic import ElastoPlastic
 from treadload.pavement.bonds import BONDED, Parted
 from treadload.pavement.catalogue import Structure, find_structure
 from treadload.pavement.layer import Layer

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import textwrap
-from typing import Any
+from typing import cast
 
 import numpy as np
+import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
+from matplotlib.typing import ColorType
 
 from treadload.composing import Source
 from treadload.errors import InputError
@@ -185,7 +187,7 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
             value = share[row, column]
             if value >= 0.5:
                 ax.text(column + 0.5, row + 0.5, f"{value:.0f}", ha="center", va="center", fontsize=7.5,
-                        color=ink_on(mesh.cmap(mesh.norm(value))))  # fmt: skip
+                        color=ink_on(cast("ColorType", mesh.cmap(mesh.norm(value)))))  # fmt: skip
     ax.set_yticks(np.arange(rows) + 0.5, classes)
     short = [name[:3] if len(seasons) == 12 else textwrap.fill(plain(name), 10) for name in seasons]
     ax.set_xticks(np.arange(columns) + 0.5, short)
@@ -256,7 +258,7 @@ def life_change(name: str, elasticity: float) -> float:
     return float(100 * ((1 + _PART / 100) ** elasticity - 1))
 
 
-def _factor(data: Any) -> tuple[float, str]:
+def _factor(data: xr.Dataset) -> tuple[float, str]:
     """Damage at the end of the design life over that of the first year, and the words for it."""
     if "design_damage" not in data:
         return 1.0, "of the first year"
@@ -268,5 +270,5 @@ def _factor(data: Any) -> tuple[float, str]:
     return factor, f"after {float(data.attrs['design_years']):g} years"
 
 
-def _labels(names: Any) -> list[str]:
+def _labels(names: xr.DataArray) -> list[str]:
     return [textwrap.fill(plain(str(name)), _LETTERS) for name in names.to_numpy()]

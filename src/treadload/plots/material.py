@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeVar
 
 import matplotlib as mpl
 import numpy as np
@@ -25,6 +25,7 @@ from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.style import CASES, INK, MUTED, RULE, figure_of, headline, plain, styled
 
 Shown = Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve
+Curve = TypeVar("Curve")
 """What can be drawn: a model, a test at one temperature, or isotherms shifted to one."""
 
 _MPA = 1e-6
@@ -95,7 +96,7 @@ def master_curve(
     the colour of their temperature, and in grey where they were measured.
     Returns the figure. Raises InputError, also for sweeps and relaxation tests in one figure.
     """
-    curves_drawn = _listed(curves)
+    curves_drawn: list[Shown] = _listed(curves)
     if any(isinstance(_data(curve), RelaxationTest) for curve in curves_drawn):
         return _relaxation(curves_drawn, labels)
     figure = new_figure(7.6, 6.0)
@@ -131,7 +132,7 @@ def shift_factors(
     drawn, as far as they hold; those of the data if left out. ax: axes to draw into. Returns the figure.
     Raises InputError.
     """
-    listed = _listed(curves)
+    listed: list[MasterCurve | ShiftLaw] = _listed(curves)
     names = _names(listed, labels)
     measured = [t for curve in listed if isinstance(curve, MasterCurve) for t in curve.temperatures]
     if temperatures is None and not measured:
@@ -305,12 +306,12 @@ def _reduced(name: str, symbol: str, curves: Sequence[Shown]) -> str:
     return f"reduced {name} {symbol}" if any(isinstance(c, MasterCurve) for c in curves) else plain_symbol
 
 
-def _listed(curves: object) -> list[Any]:
+def _listed(curves: Curve | Sequence[Curve]) -> list[Curve]:
     return list(curves) if isinstance(curves, Sequence) else [curves]
 
 
-def _drawable(curves: object) -> list[Any]:
-    listed = _listed(curves)
+def _drawable(curves: Shown | Sequence[Shown]) -> list[Shown]:
+    listed: list[Shown] = _listed(curves)
     for curve in listed:
         # An empty figure would say nothing of it.
         if not isinstance(curve, Viscoelastic | FrequencySweep | RelaxationTest | MasterCurve):

@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypedDict, Unpack
+from typing import Literal, TypedDict, Unpack
 
 import numpy as np
 import xarray as xr
@@ -221,7 +221,7 @@ def _checked(table: Table, first: int, name: str, values: Array, missing: str, f
 
 def _matrix(
     table: Table,
-    spacing: Any,
+    spacing: float | str | tuple[float | str, float | str] | None,
     x0: float | None,
     y0: float | None,
     units: Mapping[str, str],

@@ -10,8 +10,8 @@ import numpy as np
 
 from treadload.errors import InputError, nearest, positive
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.materials import Elastic, TemperatureDependent
-from treadload.materials.plastic import elastic_part
+from treadload.materials import Anisotropic, Elastic, TemperatureDependent
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Layer, Pavement
 from treadload.units import quantity
 
@@ -122,7 +122,7 @@ def poisson_of(layer: Layer) -> float:
     """Poisson's ratio of a layer, also of one whose modulus waits for a temperature."""
     material = elastic_part(layer.material)
     settled = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
-    assert isinstance(settled, Elastic) or hasattr(settled, "complex_modulus")  # `_check_layers` has seen to it
+    assert not isinstance(settled, Anisotropic)  # `_check_layers` has seen to it
     return float(settled.poisson)
 
 

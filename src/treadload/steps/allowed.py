@@ -21,7 +21,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
 from treadload.life.wheels import MARGIN
 from treadload.materials import HydraulicMix, Mix, Unbound
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement, is_bituminous
 from treadload.response import solve_response
 from treadload.response.basin import basin_reach

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property, singledispatch
-from typing import Literal, get_args
+from typing import Literal, cast, get_args
 
 from treadload.contact.bodies.anisotropic import AnisotropicHalfSpace
 from treadload.contact.bodies.belt import belt_surface
@@ -37,7 +37,7 @@ def surface_of(material: object, *, is_tire: bool, speed: float | None = None) -
     Raises InputError for a material of which no body is known, and what its body refuses.
     """
     if isinstance(material, Surfaced):
-        body: Body = material.surface(is_tire=is_tire, speed=speed)
+        body = cast(Body, material.surface(is_tire=is_tire, speed=speed))
         return body
     name = "tire" if is_tire else "road"
     raise InputError(

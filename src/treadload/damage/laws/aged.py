@@ -152,14 +152,18 @@ def _aged_line(
     """
     arguments = at.with_own({"epsilon_6": epsilon_6, "slope": slope}, "epsilon_6", "slope")
     at.needed(arguments, "epsilon_6", "slope")
+    young, gradient = arguments["epsilon_6"], arguments["slope"]
+    assert young is not None
+    assert gradient is not None
     if (hardening is None) == (age is None):
         raise InputError(f"{at.name!r}: give hardening, or age with mean_air, one of both")
     if age is None:
-        return AgedLine(arguments["epsilon_6"], arguments["slope"], hardening)  # type: ignore[arg-type]
+        assert hardening is not None
+        return AgedLine(young, gradient, hardening)
     if mean_air is None:
         raise InputError(f"{at.name!r}: age needs mean_air, the air's mean over the year in °C")
     surface = AgedSurface(GlobalAging(age, mean_air, binder))
-    return surface.line(arguments["epsilon_6"], arguments["slope"], depth=depth or 0.0)
+    return surface.line(young, gradient, depth=depth or 0.0)
 
 
 @CRITERIA.register("two-slope-line")

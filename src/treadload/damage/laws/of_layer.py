@@ -8,18 +8,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Any, Literal, TypedDict, Unpack, get_args
+from typing import Any, Literal, TypedDict, TypeVar, Unpack, get_args
 
 from treadload.damage.laws.conditions import CATALOGUE
 from treadload.damage.laws.fatigue import FatigueLaw, FatigueLine
 from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic, FrenchSubgrade, TrafficClass
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement, bituminous_thickness
 from treadload.registry import CRITERIA
 from treadload.units import Length, Modulus, Number, Share, Strain
 
+Given = TypeVar("Given")
 Law = FatigueLaw | Callable[[float], FatigueLaw]
 
 
@@ -81,7 +82,7 @@ class OnLayer:
             )
         return accepted
 
-    def with_own(self, values: Mapping[str, object], *names: str) -> dict[str, Any]:
+    def with_own(self, values: Mapping[str, Given | None], *names: str) -> dict[str, Given | None]:
         """What is given, and of these names the material's own where nothing is."""
         defaults = {name: getattr(self.material, name, None) for name in names}
         return {**defaults, **{name: value for name, value in values.items() if value is not None}}

@@ -15,8 +15,7 @@ from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
 from treadload.life.variants import Question, names_of, stiffer, thicker
 from treadload.materials import Mix
-from treadload.materials.kinds import AnyElastic
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement import Pavement
 from treadload.pavement.asphalt import is_bituminous
 

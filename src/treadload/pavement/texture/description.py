@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from hashlib import sha256
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
+from typing_extensions import Unpack
 
 from treadload.errors import InputError, positive
 from treadload.kernels import fft
@@ -18,6 +19,13 @@ from treadload.tables import real_array
 
 # No texture is higher than this, m; millimetres taken for metres are.
 _HIGHEST = 0.2
+
+
+class Changes(TypedDict, total=False):
+    """What else than its heights a treatment changes of a texture, see `Texture`."""
+
+    shortest: float | None
+    periodic: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +167,7 @@ class Texture:
         result: Array = lines[:, columns[0]] * (1 - right) + lines[:, columns[1]] * right
         return result
 
-    def changed(self, heights: Array, done: str, **changes: Any) -> Texture:
+    def changed(self, heights: Array, done: str, **changes: Unpack[Changes]) -> Texture:
         """A copy with other heights and a sentence about what was done."""
         return replace(self, heights=heights, treated=(*self.treated, done), **changes)
 

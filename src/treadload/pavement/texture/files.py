@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -106,7 +106,9 @@ def _laser(path: Path) -> Texture:
     return Texture(1e-3 * heights, 1e-3 * step, 1e-3 * step, source=f"laser profile {path.name}")
 
 
-def _matrix(path: Path, suffix: str, spacing: Any, units: str | None, decimal: str | None) -> Texture:
+def _matrix(
+    path: Path, suffix: str, spacing: float | tuple[float, float] | None, units: str | None, decimal: str | None
+) -> Texture:
     if spacing is None:
         raise InputError(f"{path.name!r} does not say how far apart its points are; give spacing in m, e.g. 0.5e-3")
     if suffix == ".npy":

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import matplotlib as mpl
+from matplotlib.typing import ColorType
 
 from treadload.errors import InputError
 from treadload.plots.kit.style import CASES, INK, MUTED, PAPER, RULE, SLIP, STICK, sequential
@@ -110,5 +111,5 @@ def template(theme: Theme) -> dict[str, object]:
     }  # fmt: skip
 
 
-def _text(colour: Any) -> str:
+def _text(colour: ColorType) -> str:
     return str(mpl.colors.to_hex(colour))

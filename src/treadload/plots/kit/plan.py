@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 import textwrap
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.colorbar import Colorbar
 from matplotlib.colors import Colormap
@@ -204,7 +204,7 @@ def frame_plan(ax: Axes, plan: Plan) -> None:
     ax.set_ylabel(Y_LABEL)
 
 
-def colour_bar(mesh: Any, ax: Axes, label: str, scale: Limits, beyond: float = 0.0) -> Colorbar:
+def colour_bar(mesh: ScalarMappable, ax: Axes, label: str, scale: Limits, beyond: float = 0.0) -> Colorbar:
     """Colour bar as high as its axes, with quantity and unit; an arrow where the scale is cut.
 
     label: in two lines where it would be longer than the bar. beyond: points that something else takes right of the

@@ -18,6 +18,7 @@ from matplotlib.colors import Colormap, LinearSegmentedColormap, to_rgb
 from matplotlib.figure import Figure
 from matplotlib.patheffects import withStroke
 from matplotlib.transforms import offset_copy
+from matplotlib.typing import ColorType
 
 from treadload.errors import InputError, nearest
 from treadload.registry import COLOUR_MAPS
@@ -166,10 +167,10 @@ def halo(width: float = 2.5) -> list[withStroke]:
     return [withStroke(linewidth=width, foreground=PAPER)]
 
 
-def ink_on(colour: object) -> str:
+def ink_on(colour: ColorType) -> str:
     """Of ink and paper, that which stands out more from a colour of matplotlib, by the contrast of WCAG 2."""
 
-    def light(colour: Any) -> float:
+    def light(colour: ColorType) -> float:
         parts = np.array(to_rgb(colour))
         linear = np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
         return float(linear @ (0.2126, 0.7152, 0.0722))

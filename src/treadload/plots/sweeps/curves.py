@@ -12,6 +12,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
+from matplotlib.typing import ColorType
 
 from treadload.composing import Source
 from treadload.errors import InputError
@@ -300,7 +301,7 @@ def _finish(ax: Axes, what: Shown, across: Shown, values: np.ndarray) -> None:
     ax.set_ylabel(f"{what.label}{', gaps: without end' if endless else ''}")
 
 
-def _lines(view: View, second: str, field: xr.DataArray) -> list[tuple[Any, str, dict[str, int]]]:
+def _lines(view: View, second: str, field: xr.DataArray) -> list[tuple[ColorType, str, dict[str, int]]]:
     """Colour, label and place of every line; of more than a figure holds evenly some."""
     if not second:
         return [(CASES[0], "", {})]
@@ -310,7 +311,7 @@ def _lines(view: View, second: str, field: xr.DataArray) -> list[tuple[Any, str,
     how = shown(axis, second)
     ordered = axis.dtype.kind in "fiu" and len(shown_ones) > 2
     colours = sequential("pressure")
-    lines = []
+    lines: list[tuple[ColorType, str, dict[str, int]]] = []
     for number, place in enumerate(shown_ones):
         colour = colours(0.25 + 0.75 * number / (len(shown_ones) - 1)) if ordered else CASES[number % len(CASES)]
         value = axis.to_numpy()[place]

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import LogNorm, Normalize
+from matplotlib.collections import QuadMesh
+from matplotlib.colors import Colormap, LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
@@ -111,9 +112,9 @@ def study_map(
 
 
 def _cells(
-    ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, failed: np.ndarray, colours: Any, norm: Normalize,
-    what: Shown,
-) -> Any:  # fmt: skip
+    ax: Axes, x: np.ndarray, y: np.ndarray, values: np.ndarray, failed: np.ndarray, colours: Colormap,
+    norm: Normalize, what: Shown,
+) -> QuadMesh:  # fmt: skip
     """Cells of a product, each with its number where there are few, else with lines of equal values."""
     columns, rows = np.argsort(x), np.argsort(y)
     x, y, values, failed = x[columns], y[rows], values[np.ix_(rows, columns)], failed[np.ix_(rows, columns)]

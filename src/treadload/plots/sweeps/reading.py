@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import cast
 
 import numpy as np
 import xarray as xr
@@ -134,12 +134,12 @@ class View:
         return failed
 
 
-def nearest_index(axis: xr.DataArray, value: Any) -> int:
+def nearest_index(axis: xr.DataArray, value: object) -> int:
     """Index of the value of an axis nearest to one; of texts of that very one. Raises InputError."""
     values = axis.to_numpy()
     if values.dtype.kind in "fiu":
         try:
-            return int(np.argmin(np.abs(values - float(value))))
+            return int(np.argmin(np.abs(values - float(cast("float | str", value)))))
         except (TypeError, ValueError) as error:
             raise InputError(f"{axis.name} is a number in SI units, got {value!r}") from error
     names = [str(value) for value in values]

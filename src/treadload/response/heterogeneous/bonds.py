@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.tensors import matrices
 
 # Cells over which a stone is smoothed to see which way its surface looks.
@@ -26,7 +25,7 @@ class Faces:
     x: Array
     y: Array
     depth: Array
-    stone: Any
+    stone: IntArray
     area: Array
     normal: Array
     shear: Array
@@ -38,7 +37,7 @@ class Faces:
         return value
 
 
-def faces(stones: Any, stress: Array, x: Array, y: Array, z: Array, thickness: Array) -> Faces:
+def faces(stones: IntArray, stress: Array, x: Array, y: Array, z: Array, thickness: Array) -> Faces:
     """Faces of the stones of a window, their stress the mean of the cells on both sides.
 
     stones: numbers (nz, ny, nx), 0 for mortar. stress: (6, nz, ny, nx), Pa. x, y, z: centres, m. thickness: (nz,), m.
@@ -50,7 +49,7 @@ def faces(stones: Any, stress: Array, x: Array, y: Array, z: Array, thickness: A
     step = np.array([x[1] - x[0] if len(x) > 1 else 1.0, y[1] - y[0] if len(y) > 1 else 1.0])
     tall = np.broadcast_to(thickness[:, None, None], stones.shape)
     sizes = {2: tall * step[1], 1: tall * step[0], 0: np.broadcast_to(step[0] * step[1], stones.shape)}
-    parts: list[list[Array]] = []
+    parts: list[list[Array | IntArray]] = []
     for axis, size in sizes.items():
         for inner, outer in ((slice(None, -1), slice(1, None)), (slice(1, None), slice(None, -1))):
             near_side = tuple(inner if number == axis else slice(None) for number in range(3))

@@ -19,11 +19,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.arrays import Array, BoolArray, IntArray
 
 # Cells a radius and covers over the radius below which nothing is estimated.
 FEWEST, THINNEST = 2.0, 0.1
@@ -62,7 +61,9 @@ def unlike_axes(cells: BoolArray, x: Array, y: Array, z: Array) -> float:
     return 0.5 * float(np.abs(np.array(moments) / np.mean(moments) - 1).max())
 
 
-def soft_errors(numbers: Any, radius: Array, depth: Array, contrasts: Array, x: Array, y: Array, z: Array) -> Array:
+def soft_errors(
+    numbers: IntArray, radius: Array, depth: Array, contrasts: Array, x: Array, y: Array, z: Array
+) -> Array:
     """Errors of the soft ones among the stones of a window, (n,); NaN where there is no estimate, as for a scan.
 
     numbers: of stones by cells, from 1. radius, depth: of each sphere and its centre, m, both empty of a scan.

@@ -6,7 +6,6 @@ import itertools
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -14,6 +13,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.plasticity.state import deviator
 from treadload.kernels.tensors import von_mises
+from treadload.materials.plastic import ElastoPlastic, PassesPowerLaw
 from treadload.response.passes.box import Box, row_edges
 from treadload.response.passes.problem import FEW_ROWS, SEARCHED, Problem
 from treadload.response.passes.steady import Track
@@ -30,7 +30,9 @@ def told_counts(passes: int) -> Iterator[float]:
             yield float(digit * 10**power)
 
 
-def power_law_strain(stress: Array, materials: Sequence[Any], firsts: Sequence[int], count: int) -> Array:
+def power_law_strain(
+    stress: Array, materials: Sequence[ElastoPlastic | None], firsts: Sequence[int], count: int
+) -> Array:
     """Plastic strain (6, nz, ny) of the first pass, on the mean over the places of the wheel.
 
     stress: (6, nz, wide, nx), Pa, of the load at rest. materials: of each row, None where it is elastic. firsts:
@@ -47,9 +49,15 @@ def power_law_strain(stress: Array, materials: Sequence[Any], firsts: Sequence[i
         path = (s * q).sum(axis=-1)
         # Of a stress that keeps its direction the mean is of size one.
         path /= np.maximum((q * q).sum(axis=-1), np.finfo(float).tiny)
-        once = 1.5 * material.law.factor * q.max(axis=-1) / material.elastic.modulus * path
+        once = 1.5 * _law(material).factor * q.max(axis=-1) / material.elastic.modulus * path
         result[:, row] = np.mean([once[:, first : first + count] for first in firsts], axis=0)
     return result
+
+
+def _law(material: ElastoPlastic) -> PassesPowerLaw:
+    law = material.law
+    assert isinstance(law, PassesPowerLaw)
+    return law
 
 
 def by_power_law(question: Problem, passes: int, laws: set[type]) -> tuple[Box, list[Record], Outcome]:
@@ -75,7 +83,7 @@ def by_power_law(question: Problem, passes: int, laws: set[type]) -> tuple[Box, 
     wide = question.stress(box.x, box.y0 + step * np.arange(-right, box.ny + left), box.depths)
     track = Track.of(replace(box, nx=1), materials)
     by_place = power_law_strain(wide, materials, [right - place for place in places], box.ny)
-    exponents = np.array([0.0 if material is None else material.law.exponent for material in materials])[:, None]
+    exponents = np.array([0.0 if material is None else _law(material).exponent for material in materials])[:, None]
     records, last = [], np.zeros((6, *box.shape))
     for number in told_counts(passes):
         # Each place has had its part of the passes, and all follow the law of their number.

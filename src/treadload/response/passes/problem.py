@@ -13,6 +13,7 @@ import numpy as np
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials import Elastic, Perzyna
+from treadload.materials.plastic import ElastoPlastic
 from treadload.pavement import Pavement
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, Load, PlacedLoad, UniformRectangle, gather
@@ -81,7 +82,7 @@ class Problem:
         finer = self.across / _across(self.longer, self.patch)
         return row_edges(self.courses, 0.8 * self.across, depth, self.layers, 1 + min(_SPREADS * finer, 1.0))
 
-    def material_at(self, depth: float) -> Any:
+    def material_at(self, depth: float) -> ElastoPlastic | None:
         """The plastic material at a depth, m; None between its layers."""
         return next((course.material for course in self.courses if course.top <= depth <= course.bottom), None)
 

@@ -8,11 +8,10 @@ sharp edges of the cells; waves add what the layers change of it, which is smoot
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.eigenstrain.operator import Grid as Cells
 from treadload.kernels.eigenstrain.operator import moved_by_endless
 from treadload.kernels.layers.layered import Stack, transfer
@@ -37,7 +36,7 @@ def surface_profile(strain: Array, box: Box, road: Pavement, across: Array) -> A
     return profile if road.is_homogeneous else profile + layers_change(strain, box, road, places)
 
 
-def layers_change(strain: Array, box: Box, road: Pavement, places: Any) -> Array:
+def layers_change(strain: Array, box: Box, road: Pavement, places: IntArray) -> Array:
     """What layers change of the surface of a half-space of the top one.
 
     strain: as of `surface_profile`. places: (m,), numbers of cells across, the first of the box 0.
@@ -56,7 +55,7 @@ def _half_space(strain: Array, box: Box, places: Array, poisson: float) -> Array
     return result
 
 
-def _change(strain: Array, box: Box, places: Array, stack: Stack) -> Array:
+def _change(strain: Array, box: Box, places: IntArray, stack: Stack) -> Array:
     """What layers change of the half-space of the top one."""
     reach = box.dy * max(box.ny, int(places.max()) - min(0, int(places.min())) + 1)
     k, dk = _waves(reach, math.pi / box.dy)
