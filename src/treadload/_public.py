@@ -7,7 +7,6 @@ import re
 import sys
 from importlib import import_module
 from types import ModuleType
-from typing import Any
 
 _PACKAGE = __name__.rpartition(".")[0]
 _FOLDER = os.path.dirname(__file__)
@@ -26,7 +25,7 @@ def names() -> list[str]:
     return list(NAMES)
 
 
-def named(name: str) -> Any:
+def named(name: str) -> object:
     """What has a public name. Raises AttributeError that says where else a name is, or which one was meant."""
     home = _HOMES.get(name)
     if home is None:
@@ -42,8 +41,8 @@ def _unknown(name: str) -> str:
     # Notebooks ask for names that begin with "_", `from treadload import units` for a module before it imports it.
     if name.startswith("_") or any(os.path.exists(os.path.join(_FOLDER, name + end)) for end in ("", ".py")):
         return text
-    rooms = [room for room in NAMES if isinstance(named(room), ModuleType)]
-    places = [f"{room}.{name}" for room in rooms if name in named(room).__all__]
+    modules = {room: module for room in NAMES if isinstance(module := named(room), ModuleType)}
+    places = [f"{room}.{name}" for room, module in modules.items() if name in module.__all__]
     if places:
         return f"{_PACKAGE}.{name} is {_PACKAGE}.{places[0]}"
     # Needed for misspelt names only.

@@ -10,7 +10,7 @@ import re
 import textwrap
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 from treadload.rows import Row, as_text, blocks_of, notes_of, table_of
 from treadload.spelling import printable
@@ -106,7 +106,19 @@ def verdict_of(result: Described) -> str:
     return next((str(row.value) for row in result.rows() if row.key == "verdict"), "")
 
 
-def as_call(thing: Any) -> str:
+class Frozen(Protocol):
+    """A dataclass."""
+
+    __dataclass_fields__: ClassVar[dict[str, dataclasses.Field[object]]]
+
+
+class HasHtml(Protocol):
+    """What a notebook shows as a page."""
+
+    def _repr_html_(self) -> str: ...
+
+
+def as_call(thing: Frozen) -> str:
     """A frozen dataclass as the call that makes it, without what stands at its default; serves as `__repr__`.
 
     Numbers to twelve digits, long texts cut, arrays and tables of numbers by their size, the first of many members.
@@ -131,7 +143,7 @@ def as_html(
     title: str,
     results: Sequence[Described],
     warnings: Sequence[str] = (),
-    dataset: Any = None,
+    dataset: HasHtml | None = None,
     picture: bytes | None = None,
 ) -> str:
     """Results as a notebook shows them: rows, a picture, warnings; folded, all after the first, and the dataset.
@@ -227,7 +239,7 @@ def _written(value: object) -> str:
     return repr(value)
 
 
-def _size_of_numbers(value: Any) -> str:
+def _size_of_numbers(value: Sequence[object]) -> str:
     """Size of a list or a table of numbers alone, as "3 x 6"; empty for anything else."""
     if all(isinstance(item, int | float) for item in value):
         return str(len(value))

@@ -20,7 +20,7 @@ import io
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any, TypeVar
+from typing import TypeVar
 
 import xarray as xr
 
@@ -159,7 +159,7 @@ class Plots:
     def __init__(self, result: object) -> None:
         self._result = result
 
-    def __getattr__(self, name: str) -> Any:
+    def __getattr__(self, name: str) -> Callable[..., object]:
         keys = {} if name.startswith("_") else self._keys()
         if name not in keys:
             kind = type(self._result).__name__

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from treadload.errors import InputError, WriteError, one_line
 
 if TYPE_CHECKING:
+    import h5py
     import xarray as xr
 
 Content = bytes | str | Iterable[str]
@@ -190,7 +191,7 @@ def _state(stream: BinaryIO) -> tuple[int, int]:
     return now.st_size, now.st_mtime_ns
 
 
-def _check_links(file: Any) -> None:
+def _check_links(file: h5py.File) -> None:
     """Refuse what a reader follows for ever, or to another file. file: of h5py. Raises ValueError."""
     import h5py
 

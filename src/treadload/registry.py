@@ -185,7 +185,7 @@ def _packages_by_module(path: tuple[str, ...]) -> dict[str, str]:
     return {point.value.partition(":")[0].partition(".")[0]: package_of(point) for point in points}
 
 
-def load_point(point: metadata.EntryPoint) -> Any:
+def load_point(point: metadata.EntryPoint) -> object:
     """What an entry point names. Raises InputError in a sentence that names the package."""
     try:
         return point.load()

@@ -10,7 +10,7 @@ import json
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, SupportsFloat
+from typing import SupportsFloat, TypedDict
 
 import numpy as np
 
@@ -194,11 +194,26 @@ def _plain(shown: Row) -> dict[str, object]:
     return {name: value for name, value in table.items() if value not in ("", None)}
 
 
-def _read(table: dict[str, Any]) -> Row:
-    form, place = table.get("form", ""), table.get("place")
-    if isinstance(form, dict):
-        text = str(form["text"])
-        form = lambda value: text  # noqa: E731
+class RowTable(TypedDict, total=False):
+    """A row as a file holds it; what stands at its default is left out. form: or the text that it made."""
+
+    key: str
+    label: str
+    value: float | str
+    unit: str
+    form: str | dict[str, str]
+    note: str
+    place: list[float] | None
+    group: str
+
+
+def _written(text: str) -> Callable[[float], str]:
+    return lambda value: text
+
+
+def _read(table: RowTable) -> Row:
+    shape, place = table.get("form", ""), table.get("place")
+    form: str | Callable[[float], str] = shape if isinstance(shape, str) else _written(str(shape["text"]))
     value, unit = table.get("value", ""), str(table.get("unit", ""))
     if not isinstance(value, str):
         value, _ = float(value), SCALES[unit]

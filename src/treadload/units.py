@@ -8,11 +8,16 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 from treadload.errors import InputError
+
+if TYPE_CHECKING:
+    import pint
+    from pydantic_core import CoreSchema
 
 # What may stand between thousands: blank, no-break, thin and narrow no-break space, apostrophes, underscore.
 _GAP = "[ \u00a0\u2009\u202f'\u2019_]"
@@ -208,7 +213,7 @@ def _degrees(number: float, written: str) -> float:
     return round(float(_registry().Quantity(number, units).to("degC").magnitude), 9)
 
 
-def _units(written: str) -> Any:
+def _units(written: str) -> pint.Unit:
     """A unit of pint from its text, which may hold no number but powers."""
     text = _BARE_POWER.sub(r"^\1", written.translate(_TIMES))
     text = f"1{text}" if text.startswith("/") else text
@@ -217,17 +222,17 @@ def _units(written: str) -> Any:
     return _registry().parse_units(text)
 
 
-def _roots(units: object) -> dict[str, object]:
+def _roots(units: pint.Unit) -> dict[str, object]:
     """Base units and their powers, angles among them."""
     return dict(_registry().get_root_units(units)[1]._units)
 
 
 @cache
-def _registry() -> Any:
+def _registry() -> pint.UnitRegistry[float]:
     # Importing pint takes as long as a small solve; only cases with quoted units pay for it.
     import pint
 
-    registry: Any = pint.UnitRegistry()
+    registry: pint.UnitRegistry[float] = pint.UnitRegistry()
     registry.define("microstrain = 1e-6 = ustrain = με = µε")
     return registry
 
@@ -260,7 +265,7 @@ class Unit:
         return _OF_KINDS.get(self.kind or self.si) or _EXAMPLES[self.si]
 
     # What pydantic asks of an annotation; nothing here needs it.
-    def __get_pydantic_core_schema__(self, source: Any, handler: Any) -> Any:
+    def __get_pydantic_core_schema__(self, source: object, handler: Callable[[object], CoreSchema]) -> CoreSchema:
         """How a case reads it: `quantity`."""
         from pydantic_core import core_schema
 

@@ -13,7 +13,7 @@ _REMOVED = object()
 _EXAMPLE = 'rolling.friction=0.6 or pavement.layers.0.thickness="8 cm"'
 
 
-def changed(table: dict[str, object], changes: Sequence[str]) -> dict[str, Any]:
+def changed(table: dict[str, object], changes: Sequence[str]) -> dict[str, object]:
     """A copy of the tables of a case with keys set.
 
     changes: "key=value"; parts of a key are joined by points, rows of a list are counted from 0. A value is TOML,

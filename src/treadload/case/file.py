@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, Self
+from typing import Self
 
 import tomli_w
 from pydantic import Field, ValidationError
@@ -65,7 +65,7 @@ class FilePart(Table):
     def _again(cls, table: dict[str, object], folder: Path) -> Self:
         return cls.from_dict(table, folder=folder)
 
-    def as_tables(self) -> dict[str, Any]:
+    def as_tables(self) -> dict[str, object]:
         """What was given, as nested tables in SI units."""
         return self.model_dump(mode="json", exclude_unset=True, exclude_none=True)
 

@@ -72,7 +72,7 @@ def with_values(table: Mapping[str, object], values: Mapping[str, object]) -> di
     return changed
 
 
-def value_at(case: FilePart | Mapping[str, object], path: str) -> Any:
+def value_at(case: FilePart | Mapping[str, object], path: str) -> object:
     """The value of a key in a case, with its defaults, or in the tables of one; None where it is not given."""
     here: Any = case
     for part in path.split("."):

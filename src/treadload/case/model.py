@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from functools import cached_property
+from pathlib import Path
 from typing import Any, Self
 
 from pydantic import model_validator
@@ -51,7 +52,7 @@ class Case(Description):
             Case.model_rebuild(force=True)
 
     @classmethod
-    def from_dict(cls, table: dict[str, Any], *, folder: Any = ".", name: str = "case") -> Self:
+    def from_dict(cls, table: dict[str, object], *, folder: Path | str = ".", name: str = "case") -> Self:
         """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
         cls.take_steps(table if isinstance(table, Mapping) else ())
         return super().from_dict(table, folder=folder, name=name)

@@ -8,15 +8,16 @@ the group `treadload.steps`, whose name is that of the step.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar, Self, Unpack
 
 import xarray as xr
-from pydantic import ValidationError
+from pydantic import ConfigDict, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from treadload.case.description import Description
 from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult
+from treadload.damage.climate import Season
 from treadload.errors import InputError
 from treadload.pavement import Pavement, methods_of
 from treadload.read import Table
@@ -49,7 +50,7 @@ class Step(Table):
     shapes_contact: ClassVar[bool] = False
     heading: ClassVar[str] = ""
 
-    def __init_subclass__(cls, *, name: str = "", **more: Any) -> None:
+    def __init_subclass__(cls, *, name: str = "", **more: Unpack[ConfigDict]) -> None:
         super().__init_subclass__(**more)
         if name:
             cls.name = name
@@ -162,7 +163,7 @@ class Source(Step):
         road = None if road is None else road.at_temperature(_ANY_TEMPERATURE, extrapolate=True)
         return (*SOLVED_WHOLE, *(() if road is None else methods_of(road)))
 
-    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, Any]:
+    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, Season | None]:
         """The road that a file shows, and the season whose temperatures it has, or None."""
         return case.build_road(), None
 

@@ -11,7 +11,7 @@ import sys
 import threading
 import time
 from collections.abc import Iterator
-from typing import Any, TextIO
+from typing import IO, Any
 
 from treadload.spelling import SPELT
 
@@ -102,7 +102,7 @@ def _prepare() -> None:
 _LOST: list[OSError] = []
 
 
-def set_encoding(stream: TextIO | None, *, ascii_only: bool = False) -> None:
+def set_encoding(stream: IO[str] | None, *, ascii_only: bool = False) -> None:
     """What a stream of the command line writes: UTF-8 into files and pipes, else what its terminal can show.
 
     A terminal keeps its encoding, and so does a stream whose encoding is set by PYTHONIOENCODING; characters that it
@@ -126,7 +126,7 @@ def set_ascii(ascii_only: bool) -> bool:
     return ascii_only
 
 
-def say(text: str, stream: TextIO | None) -> None:
+def say(text: str, stream: IO[str] | None) -> None:
     """Write to stdout or stderr as it is; whoever stopped reading misses the rest, and the command goes on."""
     if stream is None:
         return
@@ -137,7 +137,7 @@ def say(text: str, stream: TextIO | None) -> None:
         let_go(stream, error)
 
 
-def let_go(stream: Any, error: OSError) -> None:
+def let_go(stream: IO[str], error: OSError) -> None:
     """Lead a stream that takes no more to nowhere, so that neither the next line nor its end fails once more."""
     _LOST.append(error)
     with contextlib.suppress(OSError, ValueError, AttributeError):
@@ -156,7 +156,7 @@ def _interrupt(number: int, frame: object) -> None:
         os._exit(128 + number)
 
 
-def _again(event: Any) -> None:
+def _again(event: sys.UnraisableHookArgs) -> None:
     """An interruption that fell where Python drops errors, as while an object goes, comes once more.
 
     After it, objects that were half made fail as they go: nothing that a user could act on.

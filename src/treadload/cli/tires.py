@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, TypeVar
 
 import typer
 
@@ -13,13 +13,18 @@ from treadload.cli import shell
 from treadload.cli.progress import stages
 
 if TYPE_CHECKING:
+    from treadload.tire.fringes import FringeScan
     from treadload.tire.keywords import ScanKeys
+    from treadload.tire.scan.laser import LaserPiece
 
 # Options of a scan that a measurement with fringes states in its own file.
 _OF_MESHES = (
     "units", "nominal_diameter", "rotation", "camber", "revolve", "fill_holes", "smooth", "outliers", "roundness",
     "spacing", "known_length", "reference", "reference_length",
 )  # fmt: skip
+
+
+Measurement = TypeVar("Measurement", "LaserPiece", "FringeScan")
 
 
 @dataclass(frozen=True)
@@ -162,36 +167,37 @@ def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool)
     """Level the piece of tread under a laser whose lines a file names."""
     from treadload.tire.scan.laser import piece_of_lines
 
-    def drawn(result: Any) -> Any:
+    def draw(result: LaserPiece, path: Path) -> Path:
+        from treadload.plots import save
         from treadload.plots.contact import height_map
 
-        return height_map(result.dataset)
+        return save(height_map(result.dataset), path)
 
-    _measured(f"reading the lines of {file}", lambda: piece_of_lines(file), drawn, output, figure, quiet=quiet)
+    _measured(f"reading the lines of {file}", lambda: piece_of_lines(file), draw, output, figure, quiet=quiet)
 
 
 def _fringes(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:
     """Evaluate the pictures that a file names."""
     from treadload.tire.fringes import read_fringes
 
-    def drawn(result: Any) -> Any:
-        from treadload.plots import fringe_scan
+    def draw(result: FringeScan, path: Path) -> Path:
+        from treadload.plots import fringe_scan, save
 
-        return fringe_scan(result.pixels)
+        return save(fringe_scan(result.pixels), path)
 
-    _measured(f"evaluating the pictures of {file}", lambda: read_fringes(file), drawn, output, figure, quiet=quiet)
+    _measured(f"evaluating the pictures of {file}", lambda: read_fringes(file), draw, output, figure, quiet=quiet)
 
 
 def _measured(
     stage: str,
-    measure: Callable[[], Any],
-    drawn: Callable[[Any], Any],
+    measure: Callable[[], Measurement],
+    draw: Callable[[Measurement, Path], Path],
     output: Path | None,
     figure: Path | None,
     *,
     quiet: bool,
 ) -> None:
-    """A measurement, written and drawn where that is asked for, and told. drawn: its figure."""
+    """A measurement, written and drawn where that is asked for, and told. draw: writes its figure."""
     from treadload.files import check_writable
     from treadload.results.exports import write
 
@@ -204,11 +210,9 @@ def _measured(
     if output is not None:
         shell.written(write(result.dataset, output))
     if figure is not None:
-        from treadload.plots import save
-
         with stages(shell.err, quiet=quiet) as tell:
             tell("drawing")
-            picture = save(drawn(result), figure)
+            picture = draw(result, figure)
         shell.written([picture])
 
 

@@ -299,11 +299,14 @@ def _maps(
     ]
     difference = computed - measured
     both, either = (computed > 0) & (measured > 0), (computed > 0) | (measured > 0)
-    fields: dict[str, tuple[tuple[str, ...], Any]] = {
+    fields: dict[str, tuple[tuple[str, ...], Array | float]] = {
         "computed_pressure": (("y", "x"), np.where(there, computed, np.nan)),
         "measured_pressure": (("y", "x"), np.where(there, measured, np.nan)),
         "pressure_difference": (("y", "x"), np.where(there, difference, np.nan)),
-        **{name: (("map",), [getattr(values, key) for values in of_maps]) for name, key in _MEASURES.items()},
+        **{
+            name: (("map",), np.array([getattr(values, key) for values in of_maps]))
+            for name, key in _MEASURES.items()
+        },
         "rib_share": (("map", "rib"), np.array(share)),
         "rib_left": (("rib",), edges[:-1]),
         "rib_right": (("rib",), edges[1:]),
@@ -338,7 +341,9 @@ def _correlation(first: Array, second: Array) -> float:
     return float(np.corrcoef(first, second)[0, 1])
 
 
-def _judgement(maps: Sequence[Measures], share: Array, fields: Mapping[str, tuple[Any, Any]]) -> str:
+def _judgement(
+    maps: Sequence[Measures], share: Array, fields: Mapping[str, tuple[tuple[str, ...], Array | float]]
+) -> str:
     """One sentence: how well they agree, area, peak, overlap, and where they differ most."""
     _, computed, measured = maps
     common, area = float(fields["overlap_of_pressure"][1]), computed.net_area / measured.net_area - 1

@@ -8,7 +8,7 @@ import os
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -52,7 +52,7 @@ def read_footprint(
     saturation: float | str | None = None,
     dead: Literal["leave", "fill"] = "leave",
     shear_on: Literal["road", "tire"] = "road",
-    **options: Any,
+    **options: object,
 ) -> Footprint:
     """A footprint from a file, whose format is recognised by its content.
 
@@ -188,7 +188,9 @@ def _format_of(path: Path, name: str | None) -> str:
     return "tekscan" if tekscan.looks_like(content) else "pins" if pins.looks_like(content) else "text"
 
 
-def _frames(path: Path, name: str, common: dict[str, Any], options: dict[str, Any]) -> tuple[Frames, bool]:
+def _frames(
+    path: Path, name: str, common: Mapping[str, object], options: Mapping[str, object]
+) -> tuple[Frames, bool]:
     """What the reader of a format makes of the file, and whether it was told the units."""
     entry = FOOTPRINTS.find(name)
     takes = list(inspect.signature(entry.target).parameters)[1:]

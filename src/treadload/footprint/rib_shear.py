@@ -28,7 +28,7 @@ _WORDS = {"computed": "computed", "seen": "through sensor", "measured": "measure
 
 def shear_by_ribs(
     load: GridLoad, sensor: Footprint, by_sensor: Array, edges: Array, angle: float
-) -> dict[str, tuple[tuple[str, ...], object]]:
+) -> dict[str, tuple[tuple[str, ...], Array]]:
     """Variables over (map, rib, third) and (map, rib): none where neither the contact nor the footprint has shear.
 
     load: as computed. sensor: as it was laid. by_sensor: (3, ny, nx), Pa, what it reads of the load. edges: (ribs +

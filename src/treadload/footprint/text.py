@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,7 +19,7 @@ _STRESSES = ("pressure", "traction_x", "traction_y")
 def read(
     path: Path,
     *,
-    spacing: Any = None,
+    spacing: float | str | tuple[float | str, float | str] | None = None,
     units: Mapping[str, str] | None = None,
     decimal: str | None = None,
     noise: float | str = 0.0,

@@ -9,12 +9,15 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
-from treadload.materials.kinds import TemperatureDependent, Viscoelastic
+from treadload.materials.kinds import Material, TemperatureDependent, Viscoelastic
 from treadload.named import Catalogue, read_tables, sentence
 from treadload.registry import MATERIALS
 from treadload.units import Celsius
+
+if TYPE_CHECKING:
+    from treadload.read import TargetTable
 
 
 @dataclass(frozen=True)
@@ -56,10 +59,12 @@ def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
     from treadload.materials.tables import shift_of, shifted
     from treadload.read import Choice, read
 
-    def publish(material: Any, table: Any, folder: Path) -> PublishedMaterial:
-        law: Any = shifted(material, table, folder)
-        doubts = tuple(map(sentence, table.doubts or ()))
-        return PublishedMaterial("", law, table.temperature, sentence(table.source or ""), doubts)
+    def publish(material: Material, table: TargetTable, folder: Path) -> PublishedMaterial:
+        law = cast("Viscoelastic | TemperatureDependent", shifted(material, table, folder))
+        doubts = tuple(map(sentence, getattr(table, "doubts", None) or ()))
+        return PublishedMaterial(
+            "", law, getattr(table, "temperature", None), sentence(getattr(table, "source", None) or ""), doubts
+        )
 
     more = {"temperature": Celsius, "source": str, "doubts": tuple[str, ...]}
     kinds = Choice(MATERIALS, more=lambda target: {**shift_of(target), **more}, finish=publish)

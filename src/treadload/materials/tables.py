@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, cast
 
 from treadload.materials.kinds import Material, TemperatureDependent
-from treadload.materials.temperature import Thermorheological
+from treadload.materials.temperature import Shiftable, Thermorheological
 from treadload.read import Choice, TargetTable, made_by
 from treadload.registry import MATERIALS, SHIFTS
 from treadload.units import Celsius
@@ -35,11 +35,15 @@ def shift_of(target: Callable[..., object]) -> Mapping[str, object]:
     return {"shift": Annotated[Any, SHIFT]} if viscoelastic and concrete else {}
 
 
-def shifted(material: Any, table: TargetTable, folder: Path) -> Material | TemperatureDependent:
+def shifted(material: Material, table: TargetTable, folder: Path) -> Material | TemperatureDependent:
     """The material, or one that waits for its temperature."""
     shift = getattr(table, "shift", None)
     shifted_material: Material | TemperatureDependent = material
-    return shifted_material if shift is None else Thermorheological(material, *SHIFT.build(shift, folder))
+    return (
+        shifted_material
+        if shift is None
+        else Thermorheological(cast("Shiftable", material), *SHIFT.build(shift, folder))
+    )
 
 
 ROAD_MATERIAL = Choice(

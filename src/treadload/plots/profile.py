@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, Literal
+from typing import Any, Literal, TypedDict, Unpack
 
 import numpy as np
 import xarray as xr
@@ -95,8 +95,8 @@ def profile(
         field = data[variable].transpose("depth", "y", "x").to_numpy() * MICRO
         draw_profile(ax, field[:, row, column], down, layers, color=colour, label=f"{words}, under the point")
         reach = np.nanmax(field, axis=(1, 2))
-        thin: dict[str, Any] = {"lw": 0.9, "ls": (0, (3, 2)), "label": f"{words}, largest at that depth"}
-        draw_profile(ax, reach, down, layers, False, color=colour, **thin)
+        thin: LineStyle = {"color": colour, "lw": 0.9, "ls": (0, (3, 2)), "label": f"{words}, largest at that depth"}
+        draw_profile(ax, reach, down, layers, False, **thin)
     _draw_line(ax, epsilon_6)
     frame_profile(ax, down)
     draw_interfaces(ax, layers, float(down[-1]))
@@ -174,7 +174,18 @@ def strain_profiles(
     return figure
 
 
-def draw_profile(ax: Axes, values: Array, down: Array, layers: Layers, marked: bool = True, **style: Any) -> None:
+class LineStyle(TypedDict, total=False):
+    """How a line is drawn, see `matplotlib.lines.Line2D`."""
+
+    color: str
+    label: str
+    lw: float
+    ls: str | tuple[float, tuple[float, ...]]
+
+
+def draw_profile(
+    ax: Axes, values: Array, down: Array, layers: Layers, marked: bool = True, **style: Unpack[LineStyle]
+) -> None:
     """A strain (nz,), microstrain, against increasing depths (nz,), mm: a line in each layer, a jump at interfaces.
 
     Where both sides of an interface are known a thin line joins them. marked: show the depths if they are few.
@@ -189,7 +200,7 @@ def draw_profile(ax: Axes, values: Array, down: Array, layers: Layers, marked: b
         label = None
         # Depths a hair apart are the two sides of an interface.
         if last is not None and down[rows.start] - down[last] < 0.01:
-            joint = {**style, "lw": 0.9, "ls": (0, (1, 1.2)), "zorder": 2.7}
+            joint: dict[str, Any] = {**style, "lw": 0.9, "ls": (0, (1, 1.2)), "zorder": 2.7}
             ax.plot(values[[last, rows.start]], down[[last, rows.start]], marker="o", ms=3, **joint)
         last = rows.stop - 1
 

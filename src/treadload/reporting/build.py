@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from importlib import resources
 from os import PathLike
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import jinja2
 import xarray as xr
@@ -50,18 +50,22 @@ def write_report(cases: Mapping[str, object], path: str | PathLike[str], title: 
     return write_whole(path, html)
 
 
-def report(results: Any, path: str | PathLike[str], *, title: str = "") -> Path:
+def report(results: object, path: str | PathLike[str], *, title: str = "") -> Path:
     """Write a self-contained HTML file about results.
 
     results: of any verb: one, a list, or a mapping of names to them; contacts, responses, verdicts, lives, the result
     of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases of
     their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
     """
-    named = results
-    if not isinstance(named, Mapping):
-        several = isinstance(named, Iterable) and not _is_whole(named) and not isinstance(named, xr.Dataset | str)
-        named = list(named) if several else [named]
-        named = {f"{number}": result for number, result in enumerate(named)}
+    named: Mapping[str, object]
+    if isinstance(results, Mapping):
+        named = results
+    else:
+        several = (
+            isinstance(results, Iterable) and not _is_whole(results) and not isinstance(results, xr.Dataset | str)
+        )
+        members: list[object] = list(cast("Iterable[object]", results)) if several else [results]
+        named = {f"{number}": result for number, result in enumerate(members)}
     cases: dict[str, Any] = {}
     single: dict[str, Any] = {}
     for name, result in named.items():

@@ -7,7 +7,7 @@ import re
 import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, TypedDict, cast
 
 import numpy as np
 import xarray as xr
@@ -45,6 +45,20 @@ class Extra:
     dataset: xr.Dataset
     inside: Mapping[str, xr.Dataset]
     result: str = ""
+
+
+class LayerTable(TypedDict, total=False):
+    """A layer as a file holds it, see `treadload.pavement.LayerRow`."""
+
+    name: str
+    thickness: float | None
+    modulus: float
+    frequency: float | None
+    poisson: float
+    bond: str
+    temperature: float | None
+    material: str
+    anisotropic: bool
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,9 +162,9 @@ class ReportCase:
         return [str(text) for text in read_json(self.attrs.get("citations"), [])]
 
     @property
-    def layers(self) -> list[dict[str, Any]]:
+    def layers(self) -> list[LayerTable]:
         """The road's layers from the surface down, with the keys of `pavement.LayerRow`; empty if unknown."""
-        return [dict(layer) for layer in read_json(self.attrs.get("layers"), [])]
+        return [cast("LayerTable", dict(layer)) for layer in read_json(self.attrs.get("layers"), [])]
 
     @property
     def laws(self) -> dict[str, str]:

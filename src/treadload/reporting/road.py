@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 from treadload.plots.kit.style import measure
-from treadload.reporting.reading import ReportCase
+from treadload.reporting.reading import LayerTable, ReportCase
 from treadload.reporting.tables import MISSING
 
 
@@ -34,7 +33,7 @@ def road_tables(cases: list[ReportCase]) -> list[RoadTable]:
     return [_table(case, case.layers, named=len(cases) > 1) for case in cases if case.layers]
 
 
-def _table(case: ReportCase, layers: list[dict[str, object]], *, named: bool) -> RoadTable:
+def _table(case: ReportCase, layers: list[LayerTable], *, named: bool) -> RoadTable:
     speed = "" if case.speed is None else f"wheels at {measure(case.speed * 3.6)} km/h"
     season = str(case.attrs.get("season", ""))
     warm = f"in the season that does most of the governing damage, {season}" if season else ""
@@ -44,7 +43,7 @@ def _table(case: ReportCase, layers: list[dict[str, object]], *, named: bool) ->
     return RoadTable(words, rows, any(layer.get("frequency") for layer in layers))
 
 
-def _row(number: int, layer: dict[str, Any]) -> tuple[str, ...]:
+def _row(number: int, layer: LayerTable) -> tuple[str, ...]:
     thickness, temperature = layer.get("thickness"), layer.get("temperature")
     modulus, poisson = f"{layer['modulus'] / 1e6:.4g}", f"{layer['poisson']:g}"
     if layer.get("anisotropic") and layer.get("material"):

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
-from typing import Annotated, Any, Literal, get_args, get_origin, get_type_hints
+from typing import Annotated, Literal, TypeGuard, get_args, get_origin, get_type_hints
 
 from treadload.plots.kit.style import power_of_ten, thousands
 from treadload.read import Choice, Table, arms
@@ -124,7 +124,9 @@ class Entry:
         return f"{self.name} {self.text}{'' if self.unit in ('', PURE) else f' {self.unit}'}"
 
 
-def entries(model: Any, table: Mapping[str, Any], before: tuple[str, ...] = (), what: str = "") -> Iterator[Entry]:
+def entries(
+    model: type[Table] | None, table: Mapping[str, object], before: tuple[str, ...] = (), what: str = ""
+) -> Iterator[Entry]:
     """What a table of a case gives, nested tables after their own names and those in a list numbered.
 
     model: the part of a case that the table is, or None where it is not known. what: the table's kind is one of.
@@ -146,7 +148,9 @@ def entries(model: Any, table: Mapping[str, Any], before: tuple[str, ...] = (), 
             yield Entry(": ".join([*before, name]), unit, text)
 
 
-def named_tables(model: Any, table: Mapping[str, Any]) -> Iterator[tuple[str, list[Mapping[str, Any]], Any]]:
+def named_tables(
+    model: type[Table] | None, table: Mapping[str, object]
+) -> Iterator[tuple[str, list[Mapping[str, object]], type[Table] | None]]:
     """Lists of things with a name of their own, wherever they stand: key, the tables, their part."""
     for key, value in table.items():
         annotation = annotation_of(model, key)
@@ -156,7 +160,9 @@ def named_tables(model: Any, table: Mapping[str, Any]) -> Iterator[tuple[str, li
             yield key, value, part_of(annotation, value[0])
 
 
-def columns(items: list[Mapping[str, Any]], model: Any) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
+def columns(
+    items: list[Mapping[str, object]], model: type[Table] | None
+) -> tuple[tuple[str, ...], tuple[tuple[str, ...], ...]]:
     """Heading and rows of named things: a column for each key that one of them gives, with its unit."""
     order = list(model.model_fields) if model is not None else []
     present = dict.fromkeys(key for item in items for key in item)
@@ -172,7 +178,7 @@ def columns(items: list[Mapping[str, Any]], model: Any) -> tuple[tuple[str, ...]
     return tuple(heads), tuple(zip(*cells, strict=True))
 
 
-def sentence(model: object, table: Mapping[str, object]) -> str:
+def sentence(model: type[Table] | None, table: Mapping[str, object]) -> str:
     """A table in a line: what it is, then its numbers with their units."""
     what = [str(table[key]) for key in ("name", *_KINDS) if isinstance(table.get(key), str)]
     rest = {key: value for key, value in table.items() if key not in ("name", *_KINDS)}
@@ -198,7 +204,7 @@ def shown_in(annotation: object, value: object) -> tuple[str, float]:
     return ("", 1.0) if len(symbols) > 1 and isinstance(value, list) else SHOWN[symbols[0]]
 
 
-def name_of(key: str, model: Any = None) -> str:
+def name_of(key: str, model: type[Table] | None = None) -> str:
     """A key in words."""
     full_name = f"{model.__name__}.{key}" if model is not None else ""
     return _NAMES.get(full_name) or _NAMES.get(key) or key.replace("_", " ")
@@ -271,7 +277,7 @@ def _missing(part: type[Table], table: Mapping[str, object]) -> int:
     return sum(field.is_required() and key not in table for key, field in part.model_fields.items())
 
 
-def _is_tables(value: object) -> bool:
+def _is_tables(value: object) -> TypeGuard[list[Mapping[str, object]]]:
     return isinstance(value, list) and bool(value) and all(isinstance(item, Mapping) for item in value)
 
 
@@ -287,7 +293,7 @@ def _numbers(value: object) -> Iterator[float]:
         yield float(value)
 
 
-def _text(value: Any, annotation: Any, factor: float) -> str:
+def _text(value: object, annotation: object, factor: float) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, Mapping):

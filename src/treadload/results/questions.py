@@ -201,7 +201,8 @@ class Reader:
         groups = [group for group in metadata.entry_points().groups if group.startswith(_GROUPS)]
         for point in (point for group in groups for point in metadata.entry_points(group=group)):
             if point.value == name:
-                kind: type[Any] = load_point(point)
+                kind = load_point(point)
+                assert isinstance(kind, type)
                 return kind
         raise InputError(
             f"{self.where}: {_cut(name)} is unknown to this treadload; install the package that brings it"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any, ClassVar, TypedDict
 
 from pydantic import Field, model_validator
 
@@ -12,9 +12,11 @@ from treadload.calibration.solution import shown
 from treadload.case.description import Description
 from treadload.case.step import Source
 from treadload.footprint.measured import READINGS, Measured, Unknown, unknowns
+from treadload.pavement import Pavement
 from treadload.read import As
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Scene
+from treadload.tire import Tire
 from treadload.units import Number
 
 # A name, or a table.
@@ -22,6 +24,19 @@ SOUGHT = As(tuple[str | Unknown, ...])
 MEASURED = As(tuple[Measured, ...])
 ROWS = As(tuple[tuple[float | str, ...], ...])
 ERRORS = As(dict[str, float | str])
+
+
+class Question(TypedDict):
+    """The arguments of `calibrate` that a case states."""
+
+    tire: Tire
+    sought: tuple[Unknown, ...]
+    data: tuple[Measured, ...]
+    road: Pavement | None
+    friction: float
+    errors: dict[str, float | str] | None
+    spacing: float | None
+    tolerance: float
 
 
 class CalibrationStep(Source, name="calibration"):
@@ -74,7 +89,7 @@ class CalibrationStep(Source, name="calibration"):
             raise ValueError("a calibration seeks numbers of an elastic tire; give an elastic material, or a belt")
         case.build_road()
 
-    def problem(self, case: Description) -> dict[str, Any]:
+    def problem(self, case: Description) -> Question:
         """The arguments of `calibrate`; footprints are read from the folder."""
         return {
             "tire": case.build_tire(),

@@ -11,6 +11,7 @@ import xarray as xr
 from treadload.case.description import Description
 from treadload.case.step import Results, Source, at_key, numbers_of
 from treadload.damage import Life
+from treadload.damage.climate import Season
 from treadload.life.ageing import longer_by_ageing
 from treadload.life.caveats import traffic_doubts
 from treadload.life.design import DEFAULT_TOLERANCE
@@ -143,7 +144,7 @@ class LifeStep(Source, name="life"):
         ]
         outline.warnings += traffic_doubts(tire, traffic, climate)
 
-    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, object]:
+    def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, Season | None]:
         """The road in the season that does most damage."""
         life = results["life"]
         assert isinstance(life, Life)

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TypedDict, Unpack
+
+from numpy.typing import ArrayLike
 
 from treadload.case import Case
 from treadload.contact import Contact, Enveloped, envelop, solve_contact
@@ -23,6 +25,16 @@ from treadload.response.superposition import mean_loads
 from treadload.tire import Tire
 
 Progress = Callable[[str], None]
+
+
+class Points(TypedDict, total=False):
+    """Where a response is read, see `solve_response`."""
+
+    x: ArrayLike
+    y: ArrayLike
+    points: ArrayLike
+
+
 Touch = Callable[..., Contact]
 """Solves a contact of a case on cells of its spacing or another, see `contact_of`."""
 
@@ -114,7 +126,7 @@ class Loaded:
         *,
         mean_over: float | None = None,
         loads: Sequence[GridLoad] | None = None,
-        **points: Any,
+        **points: Unpack[Points],
     ) -> Response:
         """The response at depths, m, at x and y or `points`; on the grid of the maps where none of them is given.
 

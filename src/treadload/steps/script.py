@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import pprint
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -85,7 +85,7 @@ class Script:
         })  # fmt: skip
 
     @staticmethod
-    def keywords(values: dict[str, Any]) -> list[str]:
+    def keywords(values: Mapping[str, object]) -> list[str]:
         """Keyword arguments of those that are not None."""
         return _keywords(values)
 
@@ -205,7 +205,7 @@ def _name(kind: type) -> str:
     raise NoCallError
 
 
-def _keywords(values: dict[str, Any]) -> list[str]:
+def _keywords(values: Mapping[str, object]) -> list[str]:
     return [f"{name}={value!r}" for name, value in values.items() if value is not None]
 
 

@@ -7,11 +7,11 @@ import logging
 import signal
 import threading
 from collections import deque
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError, Future
 from multiprocessing import resource_tracker
 from types import ModuleType
-from typing import Any
+from typing import Protocol, Self, cast
 
 from treadload.errors import InputError, TreadloadError, WorkersLost, how_to_install, one_line
 from treadload.sweeps.places import Task, try_start
@@ -27,6 +27,35 @@ _LOST = "the scheduler went away"
 _LOOK, _REACH = 1.0, 20
 _ENDING = ("SIGINT", "SIGTERM", "SIGHUP")
 _NOTHING = logging.CRITICAL + 1
+
+
+class TaskFuture(Protocol):
+    """A case on its way, `distributed.Future`."""
+
+    status: str
+
+    def result(self, timeout: float) -> Record:
+        """The record, s after which none is there at the latest."""
+
+    def release(self) -> None:
+        """Let the scheduler forget it."""
+
+
+class Client(Protocol):
+    """A client of a scheduler, `distributed.Client`."""
+
+    status: str
+
+    def __enter__(self) -> Self: ...
+    def __exit__(self, *error: object) -> None: ...
+    def nthreads(self) -> dict[str, int]:
+        """Threads of each worker."""
+
+    def as_current(self) -> contextlib.AbstractContextManager[object]:
+        """The client that tasks inside use."""
+
+    def submit(self, solve: Callable[..., Record], *values: object, key: str, pure: bool) -> TaskFuture:
+        """Send a case."""
 
 
 class SchedulerLost(TreadloadError, RuntimeError):
@@ -46,7 +75,7 @@ def cluster(question: Question, tasks: Sequence[Task], scheduler: object, jobs: 
         client = _client(distributed, scheduler, jobs, stack)
         stack.enter_context(client.as_current())
         waiting = deque(tasks)
-        flying: dict[Any, int] = {}
+        flying: dict[TaskFuture, int] = {}
         while waiting or flying:
             try:
                 room = _AHEAD * max(1, sum(client.nthreads().values()))
@@ -109,16 +138,16 @@ def _interrupted_later() -> Iterator[None]:
             signal.raise_signal(came[0])
 
 
-def _done(distributed: ModuleType, futures: list[object]) -> set[Any]:
+def _done(distributed: ModuleType, futures: list[TaskFuture]) -> set[TaskFuture]:
     """Futures that are done by now, or within a moment."""
     try:
-        done: set[Any] = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED").done
+        done: set[TaskFuture] = distributed.wait(futures, timeout=_LOOK, return_when="FIRST_COMPLETED").done
     except TimeoutError:
         return set()
     return done
 
 
-def _record(distributed: ModuleType, future: Any, number: int) -> Record | None:
+def _record(distributed: ModuleType, future: TaskFuture, number: int) -> Record | None:
     """The record of a case; None where it was lost with its worker and is solved again."""
     try:
         record: Record = future.result(timeout=_REACH)
@@ -136,9 +165,9 @@ def _record(distributed: ModuleType, future: Any, number: int) -> Record | None:
     return record
 
 
-def _client(distributed: ModuleType, scheduler: object, jobs: int, stack: contextlib.ExitStack) -> Any:
+def _client(distributed: ModuleType, scheduler: object, jobs: int, stack: contextlib.ExitStack) -> Client:
     if isinstance(scheduler, distributed.Client):
-        return scheduler
+        return cast("Client", scheduler)
     if scheduler == LOCAL:
         try:
             with _interrupted_later():
@@ -161,9 +190,9 @@ def _client(distributed: ModuleType, scheduler: object, jobs: int, stack: contex
         ) from error
 
 
-def _connected(distributed: ModuleType, scheduler: object) -> Any:
+def _connected(distributed: ModuleType, scheduler: object) -> Client:
     """A client of a scheduler; an interruption leaves it to its thread, for half a client cannot be closed."""
-    future: Future[Any] = Future()
+    future: Future[Client] = Future()
     left = threading.Event()
 
     def connect() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TypeGuard
 
 import numpy as np
 import xarray as xr
@@ -16,12 +16,12 @@ from treadload.errors import InputError
 _LABEL = 60
 
 
-def is_finite(value: Any) -> bool:
+def is_finite(value: object) -> bool:
     """True for a number that is neither infinite nor NaN."""
     return is_number(value) and math.isfinite(value)
 
 
-def is_number(value: object) -> bool:
+def is_number(value: object) -> TypeGuard[float]:
     """True for a number, and not for a truth."""
     return isinstance(value, int | float | np.number) and not isinstance(value, bool | np.bool_)
 

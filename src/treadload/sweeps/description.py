@@ -34,7 +34,7 @@ def fingerprint(case: Case, design: Design, question: Question) -> str:
     return digest.hexdigest()[:16]
 
 
-def about(case: Case, design: Design, question: Question | None) -> dict[str, Any]:
+def about(case: Case, design: Design, question: Question | None) -> dict[str, object]:
     """What a study says of itself, as attributes of its dataset."""
     return {
         "title": case.title,

@@ -80,7 +80,7 @@ class Design:
         """Number of cases."""
         return math.prod(self.shape)
 
-    def at(self, number: int) -> dict[str, Any]:
+    def at(self, number: int) -> dict[str, object]:
         """What case `number` is given, key → value; the last dimension runs fastest."""
         place = dict(zip(self.dims, np.unravel_index(number, self.shape), strict=True))
         return {variable.key: variable.values[tuple(place[dim] for dim in variable.dims)] for variable in self.inputs}
@@ -120,7 +120,7 @@ class Design:
             coordinates[name] = ((CASE,), np.array(values), about)
         return coordinates
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """The design as what JSON holds."""
         return {
             "sizes": dict(self.sizes),

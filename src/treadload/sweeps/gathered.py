@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -114,7 +113,9 @@ def common_axes(records: Sequence[Record], kind: str) -> dict[str, np.ndarray]:
     return axes
 
 
-def place(target: np.ndarray, values: Values, coordinates: Mapping[str, np.ndarray], axes: Mapping[str, Any]) -> None:
+def place(
+    target: np.ndarray, values: Values, coordinates: Mapping[str, np.ndarray], axes: Mapping[str, np.ndarray]
+) -> None:
     """Put the values of a case into its row (1, ...) of an array over common axes."""
     dims, array = values
     if not dims:

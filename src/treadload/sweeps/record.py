@@ -30,7 +30,7 @@ class Record:
     warnings: tuple[str, ...] = ()
     failure: str | None = None
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> dict[str, object]:
         """Everything but the fields."""
         used = {dim for dims, _ in self.numbers.values() for dim in dims}
         return {

@@ -80,11 +80,13 @@ def attributes(label: str) -> dict[str, object]:
     return variables.attributes(name) if name in variables.VARIABLES else {}
 
 
-def read(parts: Parts, readings: Sequence[Selector]) -> tuple[dict[str, Values], dict[str, Values], dict[str, Any]]:
+def read(
+    parts: Parts, readings: Sequence[Selector]
+) -> tuple[dict[str, Values], dict[str, Values], dict[str, np.ndarray]]:
     """Numbers and fields of a case, and the coordinates of both. Raises InputError for a field that it lacks."""
     numbers: dict[str, Values] = dict(parts.numbers())
     fields: dict[str, Values] = {}
-    coordinates: dict[str, Any] = dict(parts.coordinates())
+    coordinates: dict[str, np.ndarray] = dict(parts.coordinates())
     for reading in readings:
         array = _find(parts, reading)
         if reading.how:
@@ -102,7 +104,7 @@ def read(parts: Parts, readings: Sequence[Selector]) -> tuple[dict[str, Values],
     return numbers, fields, coordinates
 
 
-def _aligned(array: xr.DataArray, dim: str, coordinates: dict[str, Any]) -> xr.DataArray:
+def _aligned(array: xr.DataArray, dim: str, coordinates: dict[str, np.ndarray]) -> xr.DataArray:
     """The array on the places that the case has along a dimension; new ones are added to these."""
     axis, earlier = array[dim].to_numpy(), coordinates.get(dim)
     if earlier is None or np.array_equal(axis, earlier):

@@ -60,7 +60,7 @@ def _ends(name: str, text: str) -> tuple[object, object]:
     return read_value(parts[0]), read_value(parts[1])
 
 
-def _values(case: Case, name: str, text: str) -> list[Any]:
+def _values(case: Case, name: str, text: str) -> list[object]:
     if text.startswith("["):
         items = read_value(text)
         if not isinstance(items, list):
@@ -153,10 +153,10 @@ def _is_empty(cell: object) -> bool:
     return cell is None or (isinstance(cell, str) and cell.strip().casefold() in _EMPTY)
 
 
-def _label(cell: Any) -> str:
+def _label(cell: object) -> str:
     """A cell as the text of an id: 12 for the 12.0 of a spreadsheet."""
-    whole = isinstance(cell, float) and cell.is_integer()
-    return "" if cell is None else str(int(cell) if whole else cell).strip()
+    plain = int(cell) if isinstance(cell, float) and cell.is_integer() else cell
+    return "" if plain is None else str(plain).strip()
 
 
 def _cell(cell: object, unit: str) -> object:

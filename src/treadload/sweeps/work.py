@@ -9,7 +9,7 @@ from collections import OrderedDict
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from treadload.case import Case
 from treadload.case.keys import with_values
@@ -115,7 +115,9 @@ class Worker:
 
     def _tire(self, case: Case) -> Tire:
         """The tire of a case; its scan is read once, whatever inflates it."""
-        table = {name: value for name, value in case.as_tables()["tire"].items() if name != "inflation_pressure"}
+        whole = case.as_tables()["tire"]
+        assert isinstance(whole, dict)
+        table = {name: value for name, value in whole.items() if name != "inflation_pressure"}
         key = json.dumps(table, sort_keys=True)
         tire = self._tires.get(key) or case.build_tire()
         _remember(self._tires, key, tire)
@@ -127,7 +129,10 @@ def _quiet(text: str) -> None:
     """Progress of a study is counted in cases."""
 
 
-def _remember(kept: OrderedDict[str, Any], key: str, value: object) -> None:
+Kept = TypeVar("Kept")
+
+
+def _remember(kept: OrderedDict[str, Kept], key: str, value: Kept) -> None:
     """Keep a value as the newest, and forget the oldest of too many."""
     kept[key] = value
     kept.move_to_end(key)

@@ -8,7 +8,6 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -103,7 +102,7 @@ class TreadProfile:
 
     def to_dict(self) -> dict[str, object]:
         """Plain tables of numbers and text; from_dict reads them back."""
-        return {key: value for key, value in _plain_tables(asdict(self)).items() if value not in ("", [])}
+        return {key: value for key, value in _plain_table(asdict(self)).items() if value not in ("", [])}
 
     def to_toml(self) -> str:
         """TOML text; from_toml reads it back from a file."""
@@ -144,7 +143,7 @@ class TreadProfile:
             + (f", {len(self.lateral)} sets of lateral grooves" if self.lateral else "")
         )
 
-    def _arc(self, y: Array | float) -> Any:
+    def _arc(self, y: Array | float) -> Array:
         # x²/(R + √(R² − x²)) is R − √(R² − x²) without its loss of digits.
         square = np.square(y)
         return square / (self.crown_radius + np.sqrt(np.maximum(self.crown_radius**2 - square, 0.0)))
@@ -255,10 +254,14 @@ class ProfileSurface:
         return gap
 
 
-def _plain_tables(value: object) -> Any:
+def _plain_table(table: Mapping[str, object]) -> dict[str, object]:
     """Tuples as lists and without None, as TOML wants them."""
+    return {key: _plain_tables(item) for key, item in table.items() if item is not None}
+
+
+def _plain_tables(value: object) -> object:
     if isinstance(value, Mapping):
-        return {key: _plain_tables(item) for key, item in value.items() if item is not None}
+        return _plain_table(value)
     if isinstance(value, tuple | list):
         return [_plain_tables(item) for item in value]
     return value

@@ -20,7 +20,7 @@ from treadload.pavement import Pavement, bituminous_thickness
 from treadload.registry import CRITERIA
 from treadload.units import Length, Modulus, Number, Share, Strain
 
-Given = TypeVar("Given")
+Argument = TypeVar("Argument")
 Law = FatigueLaw | Callable[[float], FatigueLaw]
 
 
@@ -82,7 +82,7 @@ class OnLayer:
             )
         return accepted
 
-    def with_own(self, values: Mapping[str, Given | None], *names: str) -> dict[str, Given | None]:
+    def with_own(self, values: Mapping[str, Argument | None], *names: str) -> dict[str, Argument | None]:
         """What is given, and of these names the material's own where nothing is."""
         defaults = {name: getattr(self.material, name, None) for name in names}
         return {**defaults, **{name: value for name, value in values.items() if value is not None}}

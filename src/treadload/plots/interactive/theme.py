@@ -58,7 +58,7 @@ def theme_of(name: str | Theme) -> Theme:
 
 
 @functools.cache
-def colour_scale(kind: str, theme: str = "light") -> list[list[Any]]:
+def colour_scale(kind: str, theme: str = "light") -> list[list[float | str]]:
     """Steps of a colour scale as plotly takes them, from nothing, the paper, to the most.
 
     kind: "pressure", "shear", "strain", "height"; "signed", whose middle is the paper; "zones" of open, stick, slip.
@@ -72,7 +72,7 @@ def colour_scale(kind: str, theme: str = "light") -> list[list[Any]]:
         ends = (mpl.colors.to_rgb(look.cases[0]), mpl.colors.to_rgb(look.paper), mpl.colors.to_rgb(look.cases[1]))
         return [[0.0, _text(ends[0])], [0.5, _text(ends[1])], [1.0, _text(ends[2])]]
     paper = mpl.colors.to_rgb(look.paper)
-    steps = []
+    steps: list[list[float | str]] = []
     for number in range(_STEPS):
         share = number / (_STEPS - 1)
         if theme == "light":

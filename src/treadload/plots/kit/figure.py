@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import os
 import struct
-from typing import Any
+from typing import IO
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -28,21 +28,28 @@ class ShownFigure(Figure):
     before, that one serves, once.
     """
 
-    def savefig(self, fname: Any, *, format: str | None = None, **how: Any) -> None:
+    def savefig(
+        self,
+        fname: str | os.PathLike[str] | IO[bytes],
+        *,
+        transparent: bool | None = None,
+        format: str | None = None,
+        **how: object,
+    ) -> None:
         """Write the figure as matplotlib does, whole or not at all: an old picture stays where this fails.
 
         fname: path or stream. format: "png", "pdf", ...; the file extension of the path if left out. how: as of
         `matplotlib.figure.Figure.savefig`. Raises WriteError where the disk is full, read-only or gone.
         """
         if not isinstance(fname, str | os.PathLike):
-            return super().savefig(fname, format=format, **how)
+            return super().savefig(fname, transparent=transparent, format=format, **how)
         path = os.fspath(fname)
         kind = format or os.path.splitext(path)[1][1:]
         if not kind:
             kind = self.canvas.get_default_filetype()
             path = f"{path.rstrip('.')}.{kind}"
         stream = io.BytesIO()
-        super().savefig(stream, format=kind, **how)
+        super().savefig(stream, transparent=transparent, format=kind, **how)
         write_whole(path, stream.getvalue())
 
     def thumbnail(self) -> bytes:

@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Any, TypedDict, Unpack
+from typing import Any, TypedDict, Unpack, cast
 
 import numpy as np
 import xarray as xr
@@ -64,7 +64,7 @@ class Ranges:
     high: Array
 
     @classmethod
-    def of(cls, case: Case, ranges: Mapping[str, tuple[Any, Any]]) -> Ranges:
+    def of(cls, case: Case, ranges: Mapping[str, tuple[object, object]]) -> Ranges:
         """The ranges that a user gives. Raises InputError for what is no range."""
         bounds = bounds_of(case, ranges)
         keys = tuple(find_key(case, name) for name in bounds)
@@ -73,12 +73,12 @@ class Ranges:
         return cls(tuple(bounds), keys, tuple(units.get(key) or "" for key in keys), low, high)
 
     @property
-    def problem(self) -> dict[str, Any]:
+    def problem(self) -> dict[str, object]:
         """As SALib has it."""
         bounds = np.stack([self.low, self.high], axis=1).tolist()
         return {"num_vars": len(self.names), "names": list(self.names), "bounds": bounds}
 
-    def coordinates(self, order: np.ndarray) -> dict[str, Any]:
+    def coordinates(self, order: np.ndarray) -> dict[str, list[str] | tuple[str, list[str]]]:
         """Names, keys and units of the inputs in an order, as coordinates of a dataset."""
         return {
             "input": [self.names[k] for k in order],
@@ -150,7 +150,7 @@ def read(study: Sweep, of: str, at: Mapping[str, object] | None, *, logarithmic:
     return Answer(name, unit, place, np.where(np.isfinite(values), values, np.nan), study)
 
 
-def _cut(field: xr.DataArray, study: Sweep, of: str, at: dict[str, Any]) -> tuple[xr.DataArray, str]:
+def _cut(field: xr.DataArray, study: Sweep, of: str, at: dict[str, object]) -> tuple[xr.DataArray, str]:
     """The number at one place of the dimensions that a result has besides those of the design."""
     parts = []
     for dim in [str(dim_name) for dim_name in field.dims if dim_name not in study.design.dims]:
@@ -161,8 +161,9 @@ def _cut(field: xr.DataArray, study: Sweep, of: str, at: dict[str, Any]) -> tupl
             raise InputError(f"{of} is over {dim}: {listed}; say which, at={{{dim!r}: {axis[0]!s}}}")
         wanted = at.pop(dim, axis[0])
         if numeric:
-            index = int(np.argmin(np.abs(axis - float(wanted))))
-            inside = abs(axis[index] - float(wanted)) <= 1e-6 + 1e-3 * abs(float(wanted))
+            place = float(cast("float | str", wanted))
+            index = int(np.argmin(np.abs(axis - place)))
+            inside = abs(axis[index] - place) <= 1e-6 + 1e-3 * abs(place)
         else:
             index, inside = next(((k, True) for k, value in enumerate(axis) if str(value) == str(wanted)), (0, False))
         if not inside:

@@ -7,7 +7,7 @@ import struct
 import warnings
 from pathlib import Path
 from types import ModuleType
-from typing import Any, BinaryIO
+from typing import TYPE_CHECKING, BinaryIO
 
 import numpy as np
 
@@ -17,6 +17,9 @@ from treadload.registry import READERS
 from treadload.tire.scan.e57_file import scan_points
 from treadload.tire.scan.mesh_file import Triangles
 from treadload.tire.scan.panics import without_backtrace
+
+if TYPE_CHECKING:
+    from laspy import LazBackend
 
 MOST_POINTS = 50_000_000
 FEWEST_POINTS = 1000
@@ -101,7 +104,7 @@ def _of_las(path: Path) -> Triangles:
     return _checked(np.asarray(points, dtype=np.float64), path)
 
 
-def _unpacker(laspy: ModuleType) -> Any:
+def _unpacker(laspy: ModuleType) -> LazBackend | None:
     """The one of LAZ that goes through the file; the parallel one reserves what a damaged table asks for."""
     return laspy.LazBackend.Lazrs if laspy.LazBackend.Lazrs.is_available() else None
 

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from treadload.errors import InputError, how_to_install
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.tire.scan.mesh_file import import_trimesh
 
 
@@ -52,7 +52,7 @@ class Caster:
         return out
 
 
-def _first_of_embree(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], Any] | None:
+def _first_of_embree(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], IntArray] | None:
     """First faces that rays meet, by Embree itself: trimesh would copy and digest the mesh first. None without it."""
     try:
         from embreex.mesh_construction import TriangleMesh
@@ -65,28 +65,30 @@ def _first_of_embree(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Arr
     scene = EmbreeScene()
     TriangleMesh(scene, ((vertices - middle) * unit).astype(np.float32), faces.astype(np.int32))
 
-    def first(origins: Array, directions: Array) -> Any:
-        return scene.run(((origins - middle) * unit).astype(np.float32), directions.astype(np.float32))
+    def first(origins: Array, directions: Array) -> IntArray:
+        hits: IntArray = scene.run(((origins - middle) * unit).astype(np.float32), directions.astype(np.float32))
+        return hits
 
     return first
 
 
-def _first_of_trimesh(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], Any]:
+def _first_of_trimesh(vertices: Array, faces: NDArray[np.int64]) -> Callable[[Array, Array], IntArray]:
     ray: Any = import_trimesh().Trimesh(vertices, faces, process=False, validate=False).ray
 
-    def first(origins: Array, directions: Array) -> Any:
+    def first(origins: Array, directions: Array) -> IntArray:
         try:
-            return ray.intersects_first(origins, directions)
+            hits: IntArray = ray.intersects_first(origins, directions)
         except ModuleNotFoundError as error:  # trimesh's own caster needs rtree
             raise InputError(
                 f"casting rays needs embreex (or, slower, rtree), but {error.name} is not installed; "
                 f"{how_to_install('scan')}"
             ) from error
+        return hits
 
     return first
 
 
-def _no_hits(origins: Array, directions: Array) -> Any:
+def _no_hits(origins: Array, directions: Array) -> IntArray:
     return np.full(len(origins), -1)
 
 
