@@ -10,7 +10,7 @@ import numpy as np
 
 from treadload.errors import InputError, nearest, positive
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.materials import Anisotropic, Elastic, TemperatureDependent
+from treadload.materials import Anisotropic, Elastic, StressDependent, TemperatureDependent
 from treadload.materials.kinds import elastic_part
 from treadload.pavement import Layer, Pavement
 from treadload.units import quantity
@@ -122,7 +122,7 @@ def poisson_of(layer: Layer) -> float:
     """Poisson's ratio of a layer, also of one whose modulus waits for a temperature."""
     material = elastic_part(layer.material)
     settled = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
-    assert not isinstance(settled, Anisotropic)  # `_check_layers` has seen to it
+    assert not isinstance(settled, Anisotropic | StressDependent)  # `_check_layers` has seen to it
     return float(settled.poisson)
 
 

@@ -14,6 +14,7 @@ from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials import Material, Mix, TemperatureDependent
+from treadload.materials.stress_dependent import StressDependent
 from treadload.registry import GROWTH
 from treadload.units import Length, Modulus, Number
 
@@ -143,7 +144,7 @@ PARIS: Mapping[str, float] = _STRENGTHS
 """Mixes that have data of crack growth: what their names begin with, and the strength taken, Pa."""
 
 
-def law_of_mix(material: Material | TemperatureDependent, layer: str) -> GrowthLaw:
+def law_of_mix(material: Material | TemperatureDependent | StressDependent, layer: str) -> GrowthLaw:
     """The law of a layer's mix. Raises InputError for one without data of crack growth."""
     strength = None
     if isinstance(material, Mix):

@@ -16,6 +16,7 @@ from treadload.damage.laws.french import RISK, FrenchBituminous, FrenchHydraulic
 from treadload.errors import InputError
 from treadload.materials import Elastic, HydraulicMix, Material, Mix, TemperatureDependent, Unbound
 from treadload.materials.kinds import elastic_part
+from treadload.materials.stress_dependent import StressDependent
 from treadload.pavement import Pavement, bituminous_thickness
 from treadload.registry import CRITERIA
 from treadload.units import Length, Modulus, Number, Share, Strain
@@ -33,10 +34,9 @@ class OnLayer:
     number: int
 
     @property
-    def material(self) -> Material | TemperatureDependent:
+    def material(self) -> Material | TemperatureDependent | StressDependent:
         """What the layer is made of."""
-        material: Material | TemperatureDependent = elastic_part(self.road.layers[self.number].material)
-        return material
+        return elastic_part(self.road.layers[self.number].material)
 
     @property
     def platform_modulus(self) -> float | None:
