@@ -3,16 +3,20 @@
 import numpy as np
 import pytest
 
+from treadload.case import Case
 from treadload.damage import Criterion, FatigueLine, FrenchSubgrade
 from treadload.grid import Grid
 from treadload.life.passage import BEHIND, BORDER, Passing, passages
 from treadload.life.seasons import Warm
+from treadload.life.solve import solve_sum
 from treadload.life.wheels import Wheels
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad
 from treadload.response.basin import basin_reach, basin_tensors, coarsened, stiffness_radius, too_wide
 from treadload.response.several import Question, tensors_of_many
+from treadload.steps.design import design_of
+from treadload.templates import first_case
 
 ROAD = Pavement(
     [
@@ -25,6 +29,32 @@ CELL = 10e-3
 TOP = Criterion("top", FatigueLine(90e-6, -0.2), 0, "top", "in-plane")
 BASE = Criterion("base", FatigueLine(90e-6, -0.2), 1)
 SOIL = Criterion("soil", FrenchSubgrade(), -1, "top")
+LIFE = """
+spacing = "24 mm"
+[tire]
+profile = "315/80R22.5"
+[pavement]
+layers = [
+  { name = "slab", thickness = "60 cm", material = { modulus = "30000 MPa", poisson = 0.2 } },
+  { name = "soil", material = { modulus = "5 MPa", poisson = 0.35 } },
+]
+[climate]
+temperature = 15
+[traffic]
+passes_per_year = 1e5
+[[traffic.classes]]
+name = "axle"
+share = 1
+wheel_load = "35 kN"
+inflation_pressure = "8.3 bar"
+[[criteria]]
+name = "surface"
+law = "fatigue-line"
+layer = "slab"
+place = "top"
+epsilon_6 = "30 microstrain"
+slope = -0.2
+"""
 Y = -1.8 + 5e-3 * np.arange(721)
 
 
@@ -100,6 +130,39 @@ def test_between_the_axles_of_a_group_their_basins_add_up():
     ahead = int(np.abs(Y).argmin())
     # At 0.655 m between two axles either one alone does nearly its most.
     assert 1.7 * alone[0, ahead] < group[0, ahead] < 2 * alone[0, ahead]
+
+
+def test_a_group_longer_than_the_field_is_solved_around_all_of_its_axles():
+    """Axles 9 m apart do not feel each other: twice the damage of one, whichever axle of them is read."""
+    alone, group = solved(wheels()), solved(wheels(((-9.0, 0.0), (0.0, 0.0))))
+
+    def harm(rows):
+        return rows[0] ** 5 - rows[1] ** 5 + rows[2] ** 5 - rows[3] ** 5 + rows[4] ** 5 - rows[5] ** 5 + rows[6] ** 5
+
+    assert harm(group).max() == pytest.approx(2 * harm(alone).max(), rel=0.01)
+    assert group[9 + BORDER, int(harm(group).argmax())] == 0
+
+
+def test_a_road_whose_basin_is_wider_than_it_is_followed_is_named_in_the_life():
+    solved_passages = solve_sum(design_of(Case.from_text(LIFE, name="case")), workers=1).passages
+    (named,) = [line for line in solved_passages.warnings if "followed to 10 m" in line]
+    reach = 3 * stiffness_radius(Pavement([Layer(Elastic(30e9, 0.2), 0.6), Layer(Elastic(5e6, 0.35))]))
+    assert f"{reach:.3g} m" in named
+    assert solved_passages.reach == 10
+
+
+@pytest.mark.slow
+def test_the_surface_life_of_the_first_case_does_not_change_with_the_field(monkeypatch):
+    """`treadload init life`, its basin followed to 1.3 and to 2.0 m: at 6 mm 0.008 %, under a half-space 0.011 %."""
+    case = Case.from_text(first_case("life"), name="life", changes=["spacing=0.012"])
+    design = design_of(case)
+    years = []
+    for reach in (1.3, 2.0):
+        monkeypatch.setattr("treadload.life.passages.basin_reach", lambda roads, reach=reach: reach)
+        life = solve_sum(design, workers=1)
+        assert life.passages.reach == reach
+        years.append(life.life.years("surface, top-down"))
+    assert years[0] == pytest.approx(years[1], rel=0.01)
 
 
 def test_a_largest_value_on_the_border_is_marked():

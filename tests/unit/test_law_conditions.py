@@ -47,6 +47,15 @@ def test_a_law_of_another_package_without_the_fields_has_the_line_too():
     assert conditions_of(object()).endswith("rest periods: not stated")
 
 
+def test_a_law_without_an_amplitude_takes_the_peak_of_a_cycle_and_says_so():
+    class OfCycles(FatigueLine):
+        def allowable_cycles(self, amplitude, mean):
+            return self.allowable_passes(amplitude + mean)
+
+    assert "each cycle by its peak" in conditions_of(FatigueLine(100e-6, -0.2))
+    assert "each cycle by its amplitude and mean" in conditions_of(OfCycles(100e-6, -0.2))
+
+
 def test_years_beyond_a_hundred_do_not_govern_and_name_their_repetitions():
     """A reading of ε₆ allows 10⁶ passes, 10 years; one of 0.5 ε₆ 2⁵ times as many, 320 years."""
     criteria = [Criterion(name, FatigueLine(100e-6, -0.2), 0, "bottom") for name in ("near", "far")]

@@ -51,11 +51,12 @@ BY_MODULUS = LoadingConditions(
 
 
 def conditions_of(law: object) -> str:
-    """A line on what ties a law to tests or roads, and on the loading of these.
+    """A line on what ties a law to tests or roads, what it takes of a cycle, and on the loading of its tests.
 
     law: also of another package; its class may have `calibrated`, a text, and `conditions`, a `LoadingConditions`.
     """
     tests = getattr(law, "tested_under", None)
     ties = "by tests of the layer's mix, without a shift to the road" if tests else getattr(law, "calibrated", "")
     conditions = tests or getattr(law, "conditions", UNSTATED)
-    return "; ".join(filter(None, (ties, str(conditions))))
+    cycle = "amplitude and mean" if hasattr(law, "allowable_cycles") else "peak"
+    return "; ".join(filter(None, (ties, f"evaluates each cycle by its {cycle}", str(conditions))))
