@@ -64,6 +64,8 @@ def files() -> None:
     from footprints import ribbed, tekscan
 
     shutil.copy(tl.example_mesh(), "tire.obj")
+    for name in ("network.toml", "sections.csv"):
+        shutil.copy(TESTS.parent / "examples" / "network" / name, name)
     Path("print.asf").write_text(tekscan([ribbed().pressure / 1e3]), encoding="latin-1")
 
 

@@ -338,6 +338,11 @@ def years_in_words(years: float) -> str:
     return f"{years:.3g} years" if years <= LASTS else f"more than {LASTS:g} years"
 
 
+def remaining_in_words(years: float) -> str:
+    """Years that are left of a service life; how long ago it ended where they are negative."""
+    return f"{-years:.3g} years past its end" if years < 0 else years_in_words(years)
+
+
 def repetitions_in_words(repetitions: float) -> str:
     """Load repetitions with three digits; that they are more than any road sees; "–" where not known."""
     if math.isnan(repetitions):

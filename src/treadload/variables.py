@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 import xarray as xr
 
-from treadload.units import LASTS, repetitions_in_words, stress_in_words, years_in_words
+from treadload.units import LASTS, remaining_in_words, repetitions_in_words, stress_in_words, years_in_words
 
 _COORDINATES = {
     "x": ("m", "position along the direction of travel"),
@@ -414,6 +414,14 @@ _BASINS = {
     "stiff_depth_deviation": ("m", "standard deviation of the depth of the stiff layer, where it is sought"),
 }
 
+_NETWORK = {
+    "remaining_years": ("1", "years of service life that are left, from the opening less the age"),
+    "section_age": ("1", "years since the opening of a section"),
+    "section_position": ("m", "place of a section along the road; NaN where it is not known"),
+    "section_rank": ("1", "rank of a section by its remaining life, 1 for the least; 0 of those without"),
+    "section_status": ("1", "0 not solved, 1 solved, 2 failed"),
+}
+
 _LIFE = {
     "damage_per_year": ("1", "Miner's damage of the first year, with wander where it applies; 1 is failure"),
     "damage_share": ("1", "share of the damage at the worst place"),
@@ -655,6 +663,7 @@ VARIABLES: Mapping[str, tuple[str, str]] = {
     **_QUANTITIES,
     **_CALIBRATION,
     **_BASINS,
+    **_NETWORK,
     **_LIFE,
     **_CLIMATE,
     **_RELIABILITY,
@@ -868,6 +877,11 @@ _DISPLAYS_STUDIES = {
     "basin_misfit": Display("misfit, median of the rms", "%", ".2g"),
     "sensor_error": Display("error of the sensors"),
     "stiff_depth": Display("stiff layer"),
+    "remaining_years": Display("remaining life", "", remaining_in_words),
+    "remaining_bands": Display("sections by remaining life"),
+    "section_age": Display("age", "", years_in_words),
+    "section_status": Display("sections"),
+    "failed": Display("failed"),
     "flagged": Display("flagged"),
     "refused": Display("refused"),
     "skipped": Display("not changed"),
@@ -1060,7 +1074,7 @@ SAMPLE: Mapping[str, Display] = {
 
 # In this order an array has its dimensions, and who takes its values counts on it.
 _ORDER = (
-    "basin", "layer_name",
+    "basin", "layer_name", "section",
     "event", "likelihood", "cell", "trial", "remedy", "state", "criterion", "road_share",
     "axle_class", "season", "month", "hour", "turn", "direction", "reading",
     "unknown", "input", "risk", "rut_layer", "year", "crack_depth", "solved_depth", "mean_pressure", "local_pressure",

@@ -12,7 +12,7 @@ import pytest
 import xarray as xr
 
 import treadload as tl
-from cases import COARSE_CASE
+from cases import BASE_AND_SOIL, COARSE_CASE, ONE_AXLE
 from studies import CASE, study_of
 from treadload.app.case_schema import label_of
 from treadload.app.result_rows import rows_of
@@ -35,7 +35,8 @@ from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
 from treadload.rows import from_json
-from treadload.sweeps.design import product
+from treadload.sweeps.design import listed, product
+from treadload.sweeps.network.solve import network_of
 from treadload.sweeps.screening import answers
 from treadload.tire.grooves import Groove, LateralGrooves
 from treadload.variables import VARIABLES, dataset, display_of, in_order
@@ -251,6 +252,14 @@ def backcalculated():
     return tl.backcalculate(basins, ROAD)
 
 
+def network():
+    case = tl.Case.from_text(ONE_AXLE + BASE_AND_SOIL)
+    rows = [{"passes_per_year": passes, "climate.temperature": 15.0} for passes in (1e4, 1e6, -1.0)]
+    places, ages = np.array([0.0, 500.0, 1000.0]), np.array([3.0, 30.0, 0.0])
+    design = listed(case, rows, labels={"section": ["A", "B", "C"]})
+    return network_of(tl.sweep(case, design), tl.sweeps.Sections(design, ("A", "B", "C"), places, ages))
+
+
 def dented():
     across = (np.arange(12) - 5.5) * 1e-3
     ball = tl.Tire.from_height_map(
@@ -370,6 +379,7 @@ MADE = {
     "TireCard": lambda: tl.footprint.tire_card(TIRE, ROAD, [200, 300], stiffness=False),
     "Calibration": calibration,
     "Backcalculation": backcalculated,
+    "Network": network,
     "Sweep": lambda: study_of(product(CASE, {"friction": [0.4, 0.6]}), lambda friction: {"worst_strain": friction}),
     "Tornado": lambda: screened(tl.sweeps.screening.tornado),
     "Sobol": lambda: screened(tl.sweeps.screening.sobol, blocks=4, second_order=True),
@@ -391,7 +401,7 @@ FIGURES = {
     "Remedies": "tornado",
     "Footprint": "pressure", "Fields": lambda plot: plot.map("horizontal_tension"),
     "FootprintComparison": "maps", "TireCard": "card", "Calibration": "fit",
-    "Backcalculation": "basins",
+    "Backcalculation": "basins", "Network": "stations",
     "Passes": "rut", "Indentation": "dent", "Heterogeneous": "section",
     "TextureContact": "patch", "Enveloped": "pressure",
     "Crossing": "history", "Wear": "wear", "PitchPassage": "history", "PitchResponse": "strains",

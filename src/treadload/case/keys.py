@@ -13,6 +13,9 @@ from treadload.read import Table
 from treadload.read.table import TargetTable, arms
 from treadload.units import Unit
 
+# Keys of a layer that a name behind them completes.
+_OF_LAYER = {"thickness": "thickness", "modulus": "material.modulus", "poisson": "material.poisson", "mix": "mix"}
+
 
 def keys_of(case: FilePart) -> dict[str, str | None]:
     """Paths of all keys that the tables of a case know, and the SI unit of those that are numbers ("" if pure)."""
@@ -50,11 +53,14 @@ def _unit(hint: object) -> str | None:
 def find_key(case: FilePart, name: str) -> str:
     """The path that a name means: itself, or the one path that ends in it, "friction" for "rolling.friction".
 
-    Raises InputError for a name that no table has, and for one that several have.
+    "thickness base" and "modulus base" are keys of the layer of that name, as in tables of basins.
+    Raises InputError for a name that no table has, for one that several have, and for a layer that is not there.
     """
     units = keys_of(case)
     if name in units or "." in name:
         return name
+    if (of_layer := _key_of_layer(case, name)) is not None:
+        return of_layer
     ends = [path for path in units if path.rpartition(".")[2] == name]
     if len(ends) == 1:
         return ends[0]
@@ -62,6 +68,26 @@ def find_key(case: FilePart, name: str) -> str:
         raise InputError(f"the key {name!r} may mean {', '.join(ends)}; write one of these")
     short = sorted({path.rpartition(".")[2] for path in units})
     raise InputError(f"the case has no key {name!r}; {nearest(name, short)}")
+
+
+def _key_of_layer(case: FilePart, name: str) -> str | None:
+    """The path of "thickness base" or "modulus base"; None for any other name. Raises InputError."""
+    key, _, layer = name.partition(" ")
+    layer = layer.strip()
+    if key not in _OF_LAYER or not layer:
+        return None
+    layers = value_at(case, "pavement.layers") or ()
+    names = [part.name or part.mix or "" for part in layers]
+    alike = [number for number, known in enumerate(names) if known.casefold() == layer.casefold()]
+    if len(alike) == 1:
+        return f"pavement.layers.{alike[0]}.{_OF_LAYER[key]}"
+    if alike:
+        raise InputError(
+            f"{name!r}: {len(alike)} layers have the name {layer!r}; write "
+            f"pavement.layers.{alike[0]}.{_OF_LAYER[key]}"
+        )
+    listed = nearest(layer, names) if any(names) else "give [[pavement.layers]] with names"
+    raise InputError(f"{name!r}: no layer has the name {layer!r}; {listed}")
 
 
 def with_values(table: Mapping[str, object], values: Mapping[str, object]) -> dict[str, object]:

@@ -33,6 +33,7 @@ from treadload.plots.kit.layers import both_sides
 from treadload.plots.kit.places import places_under
 from treadload.plots.life import life_damage, life_inputs, life_shares, life_years
 from treadload.plots.material import black_diagram, cole_cole, master_curve, shift_factors
+from treadload.plots.network import network_due, network_stations
 from treadload.plots.panels import strain_panels
 from treadload.plots.passes import drum_contact, plastic_strain, residual_stress, rut_profile, shakedown_map
 from treadload.plots.pitch import pitch_history, pitch_maps, pitch_strains
@@ -106,6 +107,8 @@ __all__ = [
     "master_curve",
     "moduli_along",
     "morris_effects",
+    "network_due",
+    "network_stations",
     "new_figure",
     "orientation_shares",
     "pitch_history",

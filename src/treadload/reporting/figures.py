@@ -11,11 +11,18 @@ from treadload.describing import class_in_words
 from treadload.errors import InputError
 from treadload.figure_registry import comparisons
 from treadload.registry import RESULTS
+from treadload.reporting.network import network_tables
 from treadload.reporting.pictures import Picture, draw_all, pictures_of
 from treadload.reporting.reading import Extra, ReportCase, groups_in_columns
 from treadload.reporting.studies import study_tables
 from treadload.reporting.tables import NamedTable, tables_of
 from treadload.rows import from_json
+
+# Tables of results that need more than their rows.
+_TABLES: dict[str, Callable[[xr.Dataset], tuple[NamedTable, ...]]] = {
+    "Sweep": study_tables,
+    "Network": network_tables,
+}
 
 
 @dataclass(frozen=True)
@@ -73,8 +80,8 @@ def _other_section(
     title = title_of(extra.result)
     heading = title if extra.name == extra.kind else f"{title}: {extra.name}"
     pictures = pictures_of(extra.result, [extra.dataset], {**beside, **extra.inside}, compared)
-    about, varied = extra.dataset.attrs, study_tables(extra.dataset) if extra.result == "Sweep" else ()
-    tables = (*varied, *tables_of(from_json(about.get("rows"))))
+    about, special = extra.dataset.attrs, _TABLES.get(extra.result)
+    tables = (*(special(extra.dataset) if special else ()), *tables_of(from_json(about.get("rows"))))
     return Section(heading, tuple(pictures), str(about.get("heading", "")), tables)
 
 

@@ -6,7 +6,7 @@ from treadload.case import Case
 from treadload.case.description import Description
 from treadload.contact.solve import DEFAULT_SPACING
 from treadload.errors import InputError
-from treadload.life.contacts import Progress
+from treadload.life.contacts import Contacts, Progress
 from treadload.life.design import Design
 from treadload.life.thickness import ThicknessDesign, design_thickness
 
@@ -16,10 +16,14 @@ def spacing_of(case: Description) -> float:
     return DEFAULT_SPACING if case.spacing is None else case.spacing
 
 
-def design_of(case: Case) -> Design:
-    """The design of a case: tire, road, traffic, climate, criteria, options of its tables. Raises InputError."""
+def design_of(case: Case, contacts: Contacts | None = None) -> Design:
+    """The design of a case: tire, road, traffic, climate, criteria, options of its tables. Raises InputError.
+
+    contacts: of the tire of the case, those that are solved already among them; left out, none is.
+    """
+    contacts = contacts or Contacts(case.build_tire(), spacing_of(case))
     return Design(
-        case.build_tire(),
+        contacts.tire,
         case.road(),
         case.build_traffic(),
         case.build_climate(),
@@ -29,6 +33,7 @@ def design_of(case: Case) -> Design:
         scatter=None if case.reliability is None else case.reliability.build(),
         spacing=spacing_of(case),
         tolerance=case.source.tolerance_of(case),
+        contacts=contacts,
     )
 
 

@@ -12,6 +12,7 @@ from treadload.case.step import Step, step_class
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.errors import InputError
+from treadload.life.contacts import Contacts
 from treadload.life.design import Design
 from treadload.registry import STEPS
 from treadload.response import MATERIAL_LENGTH, Response
@@ -33,7 +34,8 @@ class Options:
 
     leave_out: names of steps that are not solved. workers: threads of a service life; all cores if left out. jobs:
     processes of a calibration. state: file that keeps what a calibration has solved. contact: of the case, where it
-    is known. touch: solves the contacts of the case. only_numbers: True where no maps are wanted, as in a study.
+    is known. touch: solves the contacts of the case. contacts: of a service life, those known among them.
+    only_numbers: True where no maps are wanted, as in a study.
     """
 
     leave_out: tuple[str, ...] = ()
@@ -42,6 +44,7 @@ class Options:
     state: Any = None
     contact: Contact | None = None
     touch: Touch = contact_of
+    contacts: Contacts | None = None
     only_numbers: bool = False
 
 
@@ -68,7 +71,7 @@ class Scene:
     @cached_property
     def design(self) -> Design:
         """The design of a service life, with the contacts that its steps share."""
-        return design_of(self.case)
+        return design_of(self.case, self.options.contacts)
 
     @cached_property
     def means(self) -> Response:

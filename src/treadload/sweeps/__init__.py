@@ -2,6 +2,7 @@
 
 from treadload.sweeps.cluster import SchedulerLost
 from treadload.sweeps.design import Design, Input, bounds_of, over_points, sampled
+from treadload.sweeps.network import Network, Sections, read_sections, solve_network
 from treadload.sweeps.plan import plan_sweep
 from treadload.sweeps.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.sweeps.sweep import Sweep, causes_of, open_sweep, sweep
@@ -12,7 +13,9 @@ __all__ = [
     "Design",
     "Input",
     "Morris",
+    "Network",
     "SchedulerLost",
+    "Sections",
     "Sobol",
     "Sweep",
     "Tornado",
@@ -24,8 +27,10 @@ __all__ = [
     "open_sweep",
     "over_points",
     "plan_sweep",
+    "read_sections",
     "sampled",
     "sobol",
+    "solve_network",
     "sweep",
     "table_of",
     "tornado",

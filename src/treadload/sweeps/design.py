@@ -194,7 +194,9 @@ def listed(
         if set(row) != set(names):
             raise InputError(f"case {number} gives {', '.join(row)}, the first one {', '.join(names)}; give the same")
     taken = {*names, *_TAKEN}
-    named = {f"id_{name}" if name in taken else name: tuple(values) for name, values in (labels or {}).items()}
+    named = {
+        in_a_word(f"id_{name}" if name in taken else name): tuple(values) for name, values in (labels or {}).items()
+    }
     columns = {name: ((CASE,), objects([row[name] for row in rows])) for name in names}
     return _checked(case, columns, faults=faults or {}, labels=named)
 
@@ -283,7 +285,9 @@ def _checked(
 
     faults: of a list of cases, whose values may be wrong in some; None where each has to be right.
     """
-    keys = {name: find_key(case, name) for name in columns}
+    keys = {in_a_word(name): find_key(case, name) for name in columns}
+    columns = {in_a_word(name): (tuple(map(in_a_word, over)), values) for name, (over, values) in columns.items()}
+    dims = dims and tuple(map(in_a_word, dims))
     twice = next((key for key in keys.values() if list(keys.values()).count(key) > 1), None)
     if twice is not None:
         raise InputError(f"{twice} is varied twice; vary each key once")
@@ -337,6 +341,11 @@ def _checked(
     if any(variable.dims != (variable.name,) for variable in inputs):
         _check_some(case, design)
     return design
+
+
+def in_a_word(name: str) -> str:
+    """A name without blanks, which coordinates in a file cannot have: "thickness_base" for "thickness base"."""
+    return "_".join(name.split())
 
 
 def _check_some(case: Case, design: Design) -> None:

@@ -10,6 +10,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.case.step import Source, step_classes
 from treadload.contact import Contact
+from treadload.life.contacts import Contacts
 from treadload.steps.loaded import Touch, contact_of
 from treadload.steps.scene import Options, Scene
 from treadload.sweeps.record import Values
@@ -28,8 +29,8 @@ def parts_of(case: Case) -> tuple[str, ...]:
 class Parts:
     """Results of one case of a study.
 
-    contact: of it, where it is known already. touch: solves the contacts of the case. leave_out: names of steps that
-    are not solved.
+    contact: of it, where it is known already. touch: solves the contacts of the case. contacts: of its service life,
+    shared with other cases. leave_out: names of steps that are not solved.
     """
 
     def __init__(
@@ -38,9 +39,12 @@ class Parts:
         *,
         contact: Contact | None = None,
         touch: Touch = contact_of,
+        contacts: Contacts | None = None,
         leave_out: tuple[str, ...] = (),
     ) -> None:
-        options = Options(leave_out=leave_out, workers=1, contact=contact, touch=touch, only_numbers=True)
+        options = Options(
+            leave_out=leave_out, workers=1, contact=contact, touch=touch, contacts=contacts, only_numbers=True
+        )
         self.scene = Scene(case, options=options)
         self._kept = [step for step in self.scene.steps if step.swept]
         self._numbers: xr.Dataset | None = None

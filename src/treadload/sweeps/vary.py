@@ -98,13 +98,8 @@ def from_file(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = 
     be read fails alone. Raises InputError.
     """
     path = Path(path)
-    head, rows = _sheet(path) if path.suffix.lower() in EXCEL else _text(path)
-    columns: list[tuple[str, str]] = []
-    for cell in head:
-        match = _HEADING.fullmatch(str(cell).strip())
-        if match is None:
-            raise InputError(f"{path}: {cell!r} is no heading of a key, such as friction or normal_load [kN]")
-        columns.append((match["name"].strip(), (match["unit"] or "").strip()))
+    head, rows = _read(path)
+    columns = _columns(path, head)
     names = [name for name, _ in columns]
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
@@ -133,6 +128,22 @@ def from_file(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = 
     if rows and len(faults) == len(rows):
         raise InputError(f"{path}, line {rows[0][0]}: {faults[0]}; no row of the table can be read")
     return listed(case, cases, labels=labels, faults=faults)
+
+
+def headings(path: str | os.PathLike[str]) -> list[tuple[str, str]]:
+    """Names and units, "" for none, of the columns of a table of cases. Raises InputError."""
+    path = Path(path)
+    return _columns(path, _read(path)[0])
+
+
+def _columns(path: Path, head: Sequence[object]) -> list[tuple[str, str]]:
+    columns: list[tuple[str, str]] = []
+    for cell in head:
+        match = _HEADING.fullmatch(str(cell).strip())
+        if match is None:
+            raise InputError(f"{path}: {cell!r} is no heading of a key, such as friction or normal_load [kN]")
+        columns.append((match["name"].strip(), (match["unit"] or "").strip()))
+    return columns
 
 
 def _check_keys(case: Case, path: Path, names: Sequence[str]) -> None:
@@ -166,6 +177,11 @@ def _cell(cell: object, unit: str) -> object:
     if isinstance(cell, str):
         return f"{cell} {unit}" if unit and unit not in ("-", "1") else read_value(cell)
     return f"{cell!r} {unit}" if unit and unit not in ("-", "1") else cell
+
+
+def _read(path: Path) -> tuple[Sequence[object], Sequence[tuple[int, Sequence[object]]]]:
+    """Headings, and rows with their numbers, of a sheet or a table of text."""
+    return _sheet(path) if path.suffix.lower() in EXCEL else _text(path)
 
 
 def _text(path: Path) -> tuple[Sequence[object], Sequence[tuple[int, Sequence[object]]]]:

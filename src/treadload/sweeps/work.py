@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import threading
 import time
-from collections import OrderedDict
+from collections import OrderedDict, deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -15,7 +15,10 @@ from treadload.case import Case
 from treadload.case.keys import with_values
 from treadload.contact import Contact
 from treadload.errors import TreadloadError, one_line
+from treadload.life.contacts import Contacts
+from treadload.life.seasons import warmed
 from treadload.pavement import Pavement
+from treadload.steps.design import spacing_of
 from treadload.steps.loaded import Progress, contact_of
 from treadload.sweeps.parts import Parts
 from treadload.sweeps.record import Record
@@ -26,6 +29,8 @@ from treadload.tire import Tire
 _KEPT = 4
 # Keys of rolling that leave where it is pressed on.
 TANGENTIAL = ("friction", "tractive_force", "creepage_x", "lateral_force", "creepage_y", "spin")
+# Keys of a traffic that no contact depends on.
+_NO_CONTACT = ("passes_per_year", "growth", "growth_years", "kind", "years", "wander", "standard_axle")
 # Spacing and offset of a contact's cells, None where they are the case's own.
 Cells = tuple[float | None, tuple[float, float] | None]
 
@@ -52,6 +57,7 @@ class Worker:
         # By what the cases share, on which cells.
         self._contacts: OrderedDict[str, dict[Cells, Contact | TreadloadError]] = OrderedDict()
         self._tires: OrderedDict[str, Tire] = OrderedDict()
+        self._lives: deque[tuple[str, object, Contacts]] = deque(maxlen=_KEPT)
 
     def solve(self, number: int, values: Mapping[str, object]) -> Record:
         """The record of a case. What fails is recorded with its reason, and so is what nobody foresaw."""
@@ -73,7 +79,7 @@ class Worker:
         table = with_values(question.table, values)
         case = Case.from_dict(table, folder=question.folder)
         if case.rolling is None:
-            return Parts(case)
+            return Parts(case, contacts=self._contacts_of_life(case))
         return Parts(case, contact=self._contact(case), touch=self._touch)
 
     def _contact(self, case: Case) -> Contact:
@@ -112,6 +118,27 @@ class Worker:
         if isinstance(earlier, TreadloadError):
             raise earlier
         return earlier
+
+    def _contacts_of_life(self, case: Case) -> Contacts | None:
+        """The contacts of a service life, solved once for all cases whose traffic rolls on the same surface.
+
+        None for a case without traffic. The road enters a contact by the material of its surface alone, so that the
+        numbers are those of each case by itself.
+        """
+        if case.traffic is None or case.tire is None:
+            return None
+        table = case.as_tables()
+        traffic = {name: part for name, part in table["traffic"].items() if name not in _NO_CONTACT}
+        surface = warmed(case.road(), (), case.build_climate().seasons[0]).road.surface_material
+        key = json.dumps([table["tire"], traffic, table["climate"], table.get("ageing"), spacing_of(case)],
+                         sort_keys=True, default=str)  # fmt: skip
+        for kept_key, kept_surface, contacts in self._lives:
+            # Round-off would be lost in a text.
+            if kept_key == key and kept_surface == surface:
+                return contacts
+        contacts = Contacts(case.build_tire(), spacing_of(case))
+        self._lives.append((key, surface, contacts))
+        return contacts
 
     def _tire(self, case: Case) -> Tire:
         """The tire of a case; its scan is read once, whatever inflates it."""

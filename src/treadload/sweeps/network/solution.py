@@ -1,0 +1,146 @@
+"""A network of roads as a result: its sections, ranked by the service life that is left."""
+
+from __future__ import annotations
+
+import itertools
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+import xarray as xr
+
+from treadload.citations import SOLVED_WHOLE
+from treadload.composing import BaseResult, Holds
+from treadload.errors import InputError, nearest
+from treadload.kernels.arrays import Array, IntArray
+from treadload.rows import Row, row
+from treadload.sweeps.gathered import FAILED, SOLVED, UNSOLVED
+from treadload.sweeps.sweep import causes_of
+from treadload.units import remaining_in_words, years_in_words
+
+# Sections and causes of failures that a summary lists.
+_FIRST, _CAUSES = 10, 6
+BANDS = (0.0, 5.0, 10.0, 20.0)
+"""Years of remaining life between which sections are counted."""
+
+
+@dataclass(frozen=True, eq=False)
+class Network(BaseResult, group="network"):
+    """Remaining service life of the sections of a network.
+
+    dataset: over `section`: governing_years from the opening, remaining_years, which are these less section_age,
+    section_rank from 1 for the least, section_position, section_status; life_years (section, criterion);
+    governing_criterion and reason as texts. NaN where a section failed or was not solved. stats: sections, seconds.
+    warnings: sentences for the user.
+    """
+
+    title: ClassVar[str] = "Remaining life of a network"
+    subject: ClassVar[str] = "Which sections of a network fail first"
+    holds: ClassVar[Holds] = Holds(
+        {
+            "life_years": "section criterion",
+            "governing_years remaining_years section_age section_position section_rank section_status": "section",
+        },
+        labels={
+            "section": "section",
+            "criterion": "criterion",
+            "governing_criterion": "section",
+            "reason": "section",
+        },
+        codes={"section_status": 3},
+        finite="section_age section_rank",
+        above_zero="life_years governing_years",
+        maybe_numbers="design_years",
+        numbers="has_ages",
+        texts="network",
+    )
+
+    dataset: xr.Dataset
+    stats: Mapping[str, Any] = field(default_factory=dict)
+    warnings: tuple[str, ...] = ()
+
+    def cites(self) -> tuple[str, ...]:
+        """Methods of the lives."""
+        return (*SOLVED_WHOLE, "miner")
+
+    @property
+    def ranked(self) -> tuple[str, ...]:
+        """Names of the solved sections, the least remaining life first."""
+        return tuple(str(self.dataset["section"].to_numpy()[k]) for k in ranking(self.dataset))
+
+    def remaining(self, section: str) -> float:
+        """Remaining life of a section, years; negative where its service life is over. Raises InputError."""
+        names = [str(name) for name in self.dataset["section"].to_numpy()]
+        if section not in names:
+            raise InputError(f"there is no section {section!r}; {nearest(section, names)}")
+        at = self.dataset.isel(section=names.index(section))
+        if int(at["section_status"]) == FAILED:
+            raise InputError(f"section {section!r} failed: {at['reason'].item()}")
+        return float(at["remaining_years"])
+
+    @property
+    def heading(self) -> str:
+        """How many sections, and of which network."""
+        title = str(self.dataset.attrs["network"])
+        return f"{self.dataset.sizes['section']} sections{f', {title}' if title else ''}"
+
+    def rows(self) -> tuple[Row, ...]:
+        """How many were solved, what governs, the remaining life and its bands, the first sections, what failed."""
+        data = self.dataset
+        status = data["section_status"].to_numpy()
+        good = status == SOLVED
+        counts = {"solved": SOLVED, "failed": FAILED, "not solved yet": UNSOLVED}
+        texts = [f"{int((status == code).sum())} {name}" for name, code in counts.items() if (status == code).any()]
+        rows = [row("section_status", ", ".join(texts))]
+        if good.any():
+            remaining = data["remaining_years"].to_numpy()[good]
+            low, middle, high = np.quantile(remaining, [0.25, 0.5, 0.75], method="nearest")
+            note = f"a quarter of the sections: {remaining_in_words(low)} or less, a quarter: "
+            note += f"{remaining_in_words(high)} or more"
+            rows.append(row("remaining_years", middle, label="remaining life, median", note=note))
+            rows.append(row("remaining_bands", "; ".join(f"{count} {band}" for band, count in bands(remaining))))
+            governing = Counter(map(str, data["governing_criterion"].to_numpy()[good]))
+            rows.append(row("governing", "; ".join(f"{name} ({count})" for name, count in governing.most_common())))
+            rows += list(self._first())
+        failures = [(int(k), str(data["reason"].to_numpy()[k])) for k in np.flatnonzero(status == FAILED)]
+        names = data["section"].to_numpy()
+        for text, numbers in list(causes_of(failures).items())[:_CAUSES]:
+            more = f" and {len(numbers) - 1} more" if len(numbers) > 1 else ""
+            rows.append(row("failed", f"{names[min(numbers)]}{more}: {text}"))
+        if self.stats:
+            rows.append(row("solved", "{sections} sections, {seconds:.3g} s of solving".format(**self.stats)))
+        return tuple(rows)
+
+    def _first(self) -> Iterator[Row]:
+        data = self.dataset
+        for rank, k in enumerate(ranking(data)[:_FIRST], start=1):
+            at = data.isel(section=int(k))
+            note = f"by {at['governing_criterion'].item()}"
+            if data.attrs["has_ages"]:
+                age = float(at["section_age"])
+                note += f", {years_in_words(float(at['governing_years']))} from the opening, aged {age:.3g}"
+            label = f"{rank}. {at['section'].item()}"
+            yield row("remaining_years", float(at["remaining_years"]), label=label, note=note)
+
+
+def ranking(data: xr.Dataset) -> IntArray:
+    """Numbers of the solved sections of a network, the least remaining life first."""
+    ranks = data["section_rank"].to_numpy()
+    order = np.argsort(ranks, kind="stable")
+    kept: IntArray = order[ranks[order] > 0]
+    return kept
+
+
+def bands(remaining: Array) -> list[tuple[str, int]]:
+    """How many of some remaining lives, years, lie between the `BANDS`, in words."""
+    edges = [-np.inf, *BANDS, np.inf]
+    texts = [
+        "at their end or beyond",
+        *(f"with {low:g} to {high:g} years" for low, high in itertools.pairwise(BANDS)),
+    ]
+    texts.append(f"with more than {BANDS[-1]:g} years")
+    # An edge belongs to the band below it.
+    counts = [int(((remaining > low) & (remaining <= high)).sum()) for low, high in itertools.pairwise(edges)]
+    return list(zip(texts, counts, strict=True))
