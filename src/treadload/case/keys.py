@@ -78,7 +78,7 @@ def _key_of_layer(case: FilePart, name: str) -> str | None:
         return None
     layers = value_at(case, "pavement.layers") or ()
     names = [part.name or part.mix or "" for part in layers]
-    alike = [number for number, known in enumerate(names) if known.casefold() == layer.casefold()]
+    alike = [number for number, title in enumerate(names) if title.casefold() == layer.casefold()]
     if len(alike) == 1:
         return f"pavement.layers.{alike[0]}.{_OF_LAYER[key]}"
     if alike:
