@@ -103,3 +103,9 @@ def test_keys_of_layers_by_their_names():
         find_key(twice, "thickness soil")
     with pytest.raises(InputError, match="the case has no key 'frictoin'"):
         find_key(case, "frictoin")
+
+
+def test_a_layer_whose_modulus_depends_on_stress_is_not_asphalt():
+    granular = tl.materials.StressDependent(tl.materials.KTheta(60e6, 0.5))
+    layered = tl.Pavement([tl.Layer(ASPHALT, 0.1, name="asphalt"), tl.Layer(granular, 0.3, name="base"), SOIL])
+    assert layer_of_role(layered, "lowest asphalt layer") == 0

@@ -76,8 +76,9 @@ def _key_of_layer(case: FilePart, name: str) -> str | None:
     layer = layer.strip()
     if key not in _OF_LAYER or not layer:
         return None
-    layers = value_at(case, "pavement.layers") or ()
-    names = [part.name or part.mix or "" for part in layers]
+    layers = value_at(case, "pavement.layers")
+    parts = layers if isinstance(layers, list | tuple) else ()
+    names = [str(getattr(part, "name", "") or getattr(part, "mix", "") or "") for part in parts]
     alike = [number for number, title in enumerate(names) if title.casefold() == layer.casefold()]
     if len(alike) == 1:
         return f"pavement.layers.{alike[0]}.{_OF_LAYER[key]}"

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from treadload.errors import InputError
 from treadload.materials import HydraulicMix, Unbound
-from treadload.materials.kinds import AnyElastic
-from treadload.materials.plastic import elastic_part
+from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement.asphalt import is_bituminous
 from treadload.pavement.layer import Layer
 from treadload.pavement.structure import Pavement
@@ -45,16 +44,17 @@ def _kind(layer: Layer, number: int) -> str | None:
     material = elastic_part(layer.material)
     if isinstance(material, HydraulicMix):
         return CEMENT
-    if isinstance(material, Unbound):
-        return None
-    if not isinstance(material, AnyElastic):
+    bituminous = is_bituminous(material)
+    if bituminous:
         return ASPHALT
+    if isinstance(material, Unbound) or not isinstance(material, AnyElastic):
+        return None
     name = layer.name.casefold()
     if any(word in name for word in _CEMENT_WORDS) and "asphalt" not in name:
         return CEMENT
     if any(word in name for word in _ASPHALT_WORDS):
         return ASPHALT
-    if is_bituminous(material) is None:
+    if bituminous is None:
         raise InputError(
             f"layer {number + 1} {layer.name!r} ({material}) may be asphalt or bound by cement, so that its role is "
             'not known; give it a name with "asphalt" or "cement" in it, or a material of the catalogue'

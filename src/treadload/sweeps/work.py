@@ -128,7 +128,9 @@ class Worker:
         if case.traffic is None or case.tire is None:
             return None
         table = case.as_tables()
-        traffic = {name: part for name, part in table["traffic"].items() if name not in _NO_CONTACT}
+        traffic = table["traffic"]
+        assert isinstance(traffic, dict)
+        traffic = {name: part for name, part in traffic.items() if name not in _NO_CONTACT}
         surface = warmed(case.road(), (), case.build_climate().seasons[0]).road.surface_material
         key = json.dumps([table["tire"], traffic, table["climate"], table.get("ageing"), spacing_of(case)],
                          sort_keys=True, default=str)  # fmt: skip
