@@ -1,6 +1,7 @@
 """Stress-dependent layers: laws, weight, the moduli that loads settle, and what stands in a response."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -8,6 +9,9 @@ import pytest
 import treadload as tl
 from treadload.catalogue import mixes
 from treadload.errors import ConvergenceError, InputError
+from treadload.life.seasons import roads_of
+from treadload.life.solve import solve_life
+from treadload.life.variants import stiffer
 from treadload.materials import (
     AtStress,
     Bilinear,
@@ -22,7 +26,9 @@ from treadload.materials import (
 from treadload.pavement import Layer, Pavement
 from treadload.pavement.stress_sublayers import StressSublayers
 from treadload.response import GridLoad, UniformDisc, UniformRectangle, settle, solve_response
+from treadload.response.basin import SHORTEST, basin_reach
 from treadload.response.settle import ROUNDS, SETTLED
+from treadload.steps.design import design_of
 from treadload.units import PSI
 
 INCH = 0.0254
@@ -257,3 +263,125 @@ def test_what_needs_a_modulus_says_where_it_comes_from():
 def test_wrong_values_are_refused_with_the_remedy(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+LIFE = """
+spacing = "20 mm"
+tire = { profile = "315/80R22.5" }
+climate = { seasons = [
+    { name = "cold", share = 0.5, temperature = 5 }, { name = "warm", share = 0.5, temperature = 30 },
+] }
+
+[[pavement.layers]]
+mix = "EB-BBSG3"
+thickness = "80 mm"
+
+[[pavement.layers]]
+mix = "FDOT limerock"
+thickness = "300 mm"
+
+[[pavement.layers]]
+name = "soil"
+material = { kind = "stress-dependent", law = { kind = "bilinear", break_modulus = "50 MPa", break_deviator = "43 kPa", slope_below = 1110, slope_above = 178 }, earth_pressure = 0.8 }
+
+[traffic]
+passes_per_year = 1e4
+
+[[traffic.classes]]
+name = "light"
+share = 0.5
+axle_load = "40 kN"
+inflation_pressure = "8 bar"
+
+[[traffic.classes]]
+name = "heavy"
+share = 0.5
+axle_load = "110 kN"
+inflation_pressure = "8 bar"
+gear = "dual"
+
+[[criteria]]
+name = "base"
+law = "fatigue-line"
+epsilon_6 = "100 microstrain"
+slope = -0.2
+layer = 1
+place = "bottom"
+
+[[criteria]]
+name = "soil"
+law = "french-subgrade"
+constant = 0.012
+"""  # noqa: E501
+
+
+def test_a_life_has_one_state_for_each_class_and_season():
+    case = tl.Case.from_text(LIFE)
+    road, criteria = case.road(), case.build_criteria()
+    roads = roads_of(road, criteria, case.build_climate().seasons, case.build_traffic().classes)
+    limerock = np.array(
+        [[warm.road.layers[1].resolved.modulus for warm in warm_roads] for warm_roads in roads.by_class]
+    )
+    # Heavier wheels confine the base more, and so do all of them below warm, soft asphalt.
+    assert (limerock[1] > 1.1 * limerock[0]).all()
+    assert (limerock[:, 1] > 1.1 * limerock[:, 0]).all()
+    base, soil = roads.by_class[1][0].criteria
+    warm = roads.by_class[1][0].road
+    assert base.depth(warm) == pytest.approx(0.08)
+    assert soil.depth(warm) == pytest.approx(0.38)
+    # The basin is that of asphalt and base on the soil, not that of nine metres of soil on the rest of it.
+    assert basin_reach([warm]) == pytest.approx(SHORTEST)
+
+
+@pytest.mark.slow
+def test_lives_on_stress_dependent_layers():
+    case = tl.Case.from_text(LIFE)
+    design = design_of(case)
+    life = solve_life(design, workers=1)
+    linear = solve_life(replace(design, road=design.road.at_nominal_stress), workers=1)
+    for name in ("base", "soil"):
+        assert 0.2 < life.years(name) / linear.years(name) < 5
+        assert life.years(name) != pytest.approx(linear.years(name), rel=0.01)
+    stiff = stiffer(design.road, 1, 2.0)
+    assert solve_life(replace(design, road=stiff), workers=1).years("base") > 1.2 * life.years("base")
+
+
+CASE = """
+spacing = "20 mm"
+tire = { profile = "315/80R22.5", inflation_pressure = "8 bar" }
+rolling = { normal_load = "40 kN", friction = 0.7 }
+response = { depths = ["0 mm", "80 mm"], slice_depth = "200 mm" }
+damage = { fatigue = { epsilon_6 = "110 microstrain", slope = -0.2 }, lattices = 1 }
+
+[[pavement.layers]]
+name = "asphalt"
+thickness = "80 mm"
+material = { kind = "elastic", modulus = "3000 MPa", poisson = 0.35 }
+
+[[pavement.layers]]
+name = "base"
+thickness = "250 mm"
+material = { kind = "stress-dependent", law = { kind = "uzan", k1 = "7446.5 psi", k2 = 0.417, k3 = 0.122, reference = "1 psi" }, unit_weight = "21 kN/m^3" }
+
+[[pavement.layers]]
+mix = "FDOT embankment"
+"""  # noqa: E501
+
+
+@pytest.mark.slow
+def test_a_case_is_run_to_its_verdict(tmp_path):
+    case = tl.Case.from_text(CASE)
+    assert "stress-dependent" in tl.plan(case)
+    result = tl.run(case)
+    text = result.text()
+    assert "base, stress-dependent" in text
+    assert "FDOT embankment, stress-dependent" in text
+    assert not [caveat for caveat in result.verdict.warnings if "in tension, with a horizontal strain" in caveat]
+    response = result.response
+    # The verdict reads the settled road, as a response on it does.
+    again = solve_response(response.loads, response.road, depths=[0.08], x=[0.0], y=[0.0]).dataset
+    column = response.dataset.sel(depth=0.08).sel(x=0.0, y=0.0, method="nearest")
+    assert float(column["strain_xx"]) == pytest.approx(again["strain_xx"].item(), rel=0.02)
+    tl.save_results(result, tmp_path / "run.nc")
+    assert tl.open_results(tmp_path / "run.nc")["response"].road == response.road
+    assert "stress-dependent" in response.cites()

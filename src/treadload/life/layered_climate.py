@@ -13,7 +13,7 @@ from treadload.damage.climate import MONTHS, Climate, Season
 from treadload.kernels.arrays import Array
 from treadload.life.seasons import warmed
 from treadload.life.thermal import day_tension
-from treadload.materials import Elastic
+from treadload.materials import AtStress, Elastic
 from treadload.pavement import Pavement, divided
 from treadload.pavement.sublayers import middle_temperatures
 
@@ -70,4 +70,6 @@ def _degrees(parts: Pavement, season: Season) -> list[float]:
 def _moduli(road: Pavement, season: Season, count: int) -> Array:
     """Young's modulus of the upper parts in a season, Pa."""
     materials = [layer.resolved for layer in warmed(road, (), season).road.layers[:count]]
-    return np.array([material.modulus if isinstance(material, Elastic) else np.nan for material in materials])
+    single = [isinstance(material, Elastic) and not isinstance(material, AtStress) for material in materials]
+    pairs = zip(materials, single, strict=True)
+    return np.array([material.modulus if has_modulus else np.nan for material, has_modulus in pairs])  # type: ignore[union-attr]

@@ -17,6 +17,7 @@ from treadload.kernels.arrays import Array
 from treadload.materials import Mix
 from treadload.pavement import Pavement, TemperatureProfile
 from treadload.pavement.sublayers import divided, middle_temperatures
+from treadload.response import UniformDisc, settle
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,8 @@ class Warmed:
     """The roads of a climate.
 
     distinct: those that differ. where: which of them each season has, by number. by_class: the same roads for every
-    class of axles, at its own loading frequency if it reads moduli at one.
+    class of axles, at its own loading frequency if it reads moduli at one, with the moduli that it makes of
+    stress-dependent layers; `distinct` are then those of the heaviest class.
     """
 
     distinct: tuple[Warm, ...]
@@ -51,18 +53,26 @@ def roads_of(
     warm = [warmed(road, criteria, season) for season in seasons]
     firsts = [k for k, season in enumerate(warm) if season not in warm[:k]]
     distinct = tuple(warm[k] for k in firsts)
+    where = tuple(distinct.index(season) for season in warm)
     by_class = tuple(
-        distinct if row.frequency is None else tuple(warmed(road, criteria, seasons[k], row) for k in firsts)
+        tuple(warmed(road, criteria, seasons[k], row) for k in firsts) if of_class(road, row) else distinct
         for row in classes
     )
-    return Warmed(distinct, tuple(distinct.index(season) for season in warm), by_class)
+    heaviest = int(np.argmax([row.wheel_load for row in classes]))
+    return Warmed(by_class[heaviest] if road.depends_on_stress else distinct, where, by_class)
+
+
+def of_class(road: Pavement, row: AxleClass) -> bool:
+    """True where a class has a road of its own: by its loading frequency, or by the stress of its wheels."""
+    return row.frequency is not None or road.depends_on_stress
 
 
 def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: AxleClass | None = None) -> Warm:
     """The road and the criteria in a season; below a profile courses are divided, and criteria read their ends.
 
-    row: the class of axles, which may read moduli at its own loading frequency. Raises InputError for temperatures
-    that do not fit the road.
+    row: the class of axles, which may read moduli at its own loading frequency; stress-dependent layers have the
+    moduli of its wheels, discs of the wheel load under the inflation pressure, and nominal ones without a class.
+    Raises InputError for temperatures that do not fit the road, ConvergenceError for moduli that do not settle.
     """
     temperature = season.temperature
     if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
@@ -86,7 +96,19 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: A
         warm = faster.at_temperature(each, extrapolate=True)
     placed = [_placed(criterion, road, numbers) for criterion in criteria]
     pairs = zip(placed, criteria, strict=True)
-    return Warm(warm, tuple(new.at(_at_layer(old, road, season)) for new, old in pairs))
+    placed_in = tuple(new.at(_at_layer(old, road, season)) for new, old in pairs)
+    return _settled(Warm(warm, placed_in), row) if warm.depends_on_stress else Warm(warm, placed_in)
+
+
+def _settled(warm: Warm, row: AxleClass | None) -> Warm:
+    """The road with the moduli of its stress-dependent layers, divided over depth, and the criteria in it."""
+    if row is None:
+        return replace(warm, road=warm.road.at_nominal_stress)
+    radius = contact_radius(row.wheel_load, row.inflation_pressure)
+    discs = [UniformDisc(radius, row.inflation_pressure, x, y) for x, y in row.wheels]
+    state = settle(discs, warm.road, speed=row.speed if warm.road.is_viscoelastic else None)
+    owner = state.sublayers.owner
+    return Warm(state.road, tuple(_placed(criterion, warm.road, owner) for criterion in warm.criteria))
 
 
 def layer_temperatures(road: Pavement, criteria: Sequence[Criterion], seasons: Sequence[Season]) -> Array:
@@ -153,7 +175,7 @@ def _placed(criterion: Criterion, road: Pavement, owner: tuple[int, ...] | None)
     number = criterion.number(road)
     members = [k for k, whose in enumerate(owner) if whose == number]
     if criterion.place == "top":
-        return replace(criterion, layer=members[0], parts=len(members))
+        return replace(criterion, layer=members[0], parts=max(criterion.parts, len(members)))
     return replace(criterion, layer=members[-1])
 
 

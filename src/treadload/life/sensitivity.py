@@ -35,7 +35,7 @@ from treadload.life.variants import (
     stiffer,
     thicker,
 )
-from treadload.materials import Mix
+from treadload.materials import Mix, StressDependent
 from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
@@ -275,7 +275,7 @@ def _changes(question: Question) -> tuple[dict[str, Change], list[str]]:
     for k, (label, layer) in enumerate(zip(names_of(road), road.layers, strict=True)):
         if layer.thickness is not None:
             changes[f"thickness of {label}"] = _on_road(question, thicker, k)
-        if isinstance(layer.material, AnyElastic | Mix):
+        if isinstance(layer.material, AnyElastic | Mix | StressDependent):
             changes[f"modulus of {label}"] = _on_road(question, stiffer, k)
         else:
             skipped.append(f"modulus of {label}: it is viscoelastic")

@@ -18,9 +18,9 @@ from treadload.damage.traffic import AxleClass, Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Contacts, Counter, Progress
 from treadload.life.passage import Passing, solve_passings, turns_of
-from treadload.life.seasons import Warm, layer_temperatures, warmed
+from treadload.life.seasons import Warm, layer_temperatures, of_class, warmed
 from treadload.life.wheels import Wheels, across, states_of, wheels_of
-from treadload.materials import Anisotropic, Elastic, Mix
+from treadload.materials import Anisotropic, Elastic, Mix, StressDependent
 from treadload.pavement import Pavement
 from treadload.response.basin import basin_reach
 
@@ -37,12 +37,14 @@ def thicker(road: Pavement, number: int, factor: float) -> Pavement:
 
 
 def stiffer(road: Pavement, number: int, factor: float) -> Pavement:
-    """The road with the modulus of an elastic layer, from 0 at the surface, times a factor; at all temperatures."""
+    """The road with the modulus of a layer, from 0 at the surface, times a factor; at all temperatures."""
     layers = list(road.layers)
     material = layers[number].material
     if isinstance(material, Mix):
         rows = tuple(tuple(value * factor for value in row) for row in material.moduli)
         layers[number] = replace(layers[number], material=replace(material, moduli=rows))
+    elif isinstance(material, StressDependent):
+        layers[number] = replace(layers[number], material=replace(material, factor=material.factor * factor))
     elif isinstance(material, Anisotropic):
         layers[number] = replace(layers[number], material=material.stiffer(factor))
     else:
@@ -81,12 +83,12 @@ def most(shares: Array, coverage: float) -> tuple[list[tuple[int, int]], float]:
 def in_seasons(
     question: Question, criterion: Criterion, pairs: Sequence[tuple[int, int]]
 ) -> dict[tuple[int, int], Warm]:
-    """The road and the criterion of the pairs (class, season), shared by classes without a frequency of their own."""
+    """The road and the criterion of the pairs (class, season), shared by classes without a road of their own."""
     road, traffic, climate = question
     shared = {s: warmed(road, (criterion,), climate.seasons[s]) for s in dict.fromkeys(s for _, s in pairs)}
     classes_of = {pair: traffic.classes[pair[0]] for pair in pairs}
     return {
-        pair: shared[pair[1]] if row.frequency is None else warmed(road, (criterion,), climate.seasons[pair[1]], row)
+        pair: warmed(road, (criterion,), climate.seasons[pair[1]], row) if of_class(road, row) else shared[pair[1]]
         for pair, row in classes_of.items()
     }
 

@@ -33,7 +33,8 @@ class StressDependent:
     materials, 0.8 of fine soils. unit_weight: N/m³. tension: share of a tensile principal stress that counts in bulk
     and deviator stress, in [0, 1]: 0 cuts tension off, 1 counts it as linear layers have it. least_stress: which bulk
     and deviator stress do not fall below in the law, Pa. sublayer: greatest thickness of the parts into which a layer
-    is divided over depth, m; left out, the rule of `pavement.stress_sublayers`. Raises InputError.
+    is divided over depth, m; left out, the rule of `pavement.stress_sublayers`. factor: on the modulus of the law,
+    as of moisture or season. Raises InputError.
     """
 
     law: ModulusLaw
@@ -43,6 +44,7 @@ class StressDependent:
     tension: Share = 0.5
     least_stress: Pressure = 3e3
     sublayer: Length | None = None
+    factor: Number = 1.0
 
     def __post_init__(self) -> None:
         if not isinstance(self.law, ModulusLaw):
@@ -66,13 +68,14 @@ class StressDependent:
         if isinstance(self.tension, str) or not 0 <= self.tension <= 1:
             raise InputError(f"tension must lie in [0, 1], got {self.tension!r}; 0.5 is the default")
         positive("least_stress", self.least_stress, "Pa", "3e3 is the default")
+        positive("factor", self.factor, remedy="1 is the law as it is")
         if self.sublayer is not None:
             positive("sublayer", self.sublayer, "m", "leave it out for parts that grow with depth")
 
     def moduli(self, bulk: ArrayLike, deviator: ArrayLike) -> tuple[Array, Array]:
         """Young's modulus, Pa, and Poisson's ratio under bulk and deviator stress, Pa, compression positive."""
         theta, q = (np.maximum(np.asarray(part, dtype=float), self.least_stress) for part in (bulk, deviator))
-        modulus = self.law.modulus(theta, q)
+        modulus = self.factor * self.law.modulus(theta, q)
         if isinstance(self.law, Boyce):
             return modulus, self.law.poisson_ratio(theta, q)
         return modulus, np.full(np.shape(modulus), POISSON if self.poisson is None else self.poisson)
@@ -99,7 +102,7 @@ class StressDependent:
         return self.under(*_NOMINAL)
 
     def __str__(self) -> str:
-        return f"stress-dependent, {self.law}"
+        return f"stress-dependent, {self.law}" + ("" if self.factor == 1 else f", times {self.factor:g}")
 
     __repr__ = as_call
 

@@ -15,8 +15,9 @@ import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import BASIN
+from treadload.materials import AtStress
 from treadload.materials.kinds import limit_of, upright
-from treadload.pavement import Pavement
+from treadload.pavement import Layer, Pavement
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, SurfaceLoad
 from treadload.response.material import windows
@@ -40,9 +41,9 @@ def stiffness_radius(road: Pavement) -> float:
 
     ℓ³ = 2 D (1 - ν_s²) / E_s with D = Σ ∫ E/(1 - ν²) (z - z₀)² dz about the neutral axis z₀ of bonded layers (Hogg
     1938, Phil. Mag. 25, 576-582; Ioannides, Thompson and Barenberg 1985, TRR 1043). On a rigid base the last layer is
-    that solid. 0 for a half-space.
+    that solid; of a stress-dependent soil, which is divided over depth, its uppermost part. 0 for a half-space.
     """
-    layers = road.layers
+    layers = _on_one_soil(road)
     if len(layers) < 2:
         return 0.0
     elastic = [upright(limit_of(layer.resolved, "glassy")) for layer in layers]
@@ -53,6 +54,17 @@ def stiffness_radius(road: Pavement) -> float:
     bending = float((plate * ((bottom - neutral) ** 3 - (top - neutral) ** 3)).sum() / 3)
     modulus, poisson = elastic[-1]
     return float((2 * bending * (1 - poisson**2) / modulus) ** (1 / 3))
+
+
+def _on_one_soil(road: Pavement) -> Sequence[Layer]:
+    """The layers, without the parts of a stress-dependent soil below its uppermost one."""
+    layers = list(road.layers)
+    while len(layers) > 1:
+        above, last = layers[-2].material, layers[-1].material
+        if not (isinstance(above, AtStress) and isinstance(last, AtStress) and above.law == last.law):
+            break
+        del layers[-1]
+    return layers
 
 
 def basin_reach(roads: Iterable[Pavement]) -> float:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from treadload.errors import ConvergenceError
 from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
+from treadload.kernels.layers.synthesis import READING
 from treadload.kernels.tensors import principal_values
 from treadload.materials import AtStress
 from treadload.pavement import Pavement
@@ -139,7 +140,7 @@ def _invariants(
 ) -> tuple[Array, Array]:
     """Bulk and deviator stress in the laws of the sublayers (n, points), Pa. places: (points, 2), m."""
     at, x, y = Points.of(places[:, 0], places[:, 1])
-    view = View(x, y, at, components=_STRESS)
+    view = View(x, y, at, components=_STRESS, accuracy=READING)
     depths = sublayers.depths
     question = Question(loads, at_speed(road, speed), depths)
     (answer,) = answers([question], view, side="below", speed=speed, mean_over=None)

@@ -14,7 +14,7 @@ from treadload.damage.scatter import Scatter
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
 from treadload.life.variants import Question, names_of, stiffer, thicker
-from treadload.materials import Mix
+from treadload.materials import Mix, StressDependent
 from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement import Pavement
 from treadload.pavement.asphalt import is_bituminous
@@ -147,7 +147,7 @@ def _moduli(
     for number, variation in rows:
         if not variation:
             continue
-        if not isinstance(road.layers[number].material, AnyElastic | Mix):
+        if not isinstance(road.layers[number].material, AnyElastic | Mix | StressDependent):
             raise InputError(
                 f"scatter of moduli: {names[number]!r} is viscoelastic and has no single modulus; give moduli by the "
                 "names of the other layers"

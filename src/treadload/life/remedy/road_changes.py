@@ -11,7 +11,7 @@ from treadload.life.design import Design
 from treadload.life.remedy.changes import Change, NotApplicable, Remedy
 from treadload.life.remedy.steps import RemedySteps
 from treadload.life.variants import names_of, stiffer
-from treadload.materials import HydraulicMix, Mix, Unbound, UnboundByStress
+from treadload.materials import HydraulicMix, Mix, StressDependent, Unbound, UnboundByStress
 from treadload.materials.kinds import AnyElastic
 from treadload.materials.library import mixes
 from treadload.materials.mixture import RoadMaterial
@@ -50,8 +50,8 @@ def other_mixes(design: Design, steps: RemedySteps) -> Iterator[Change]:
         elif isinstance(material, Mix | HydraulicMix | Unbound) and material.name in mixes:
             for neighbour in neighbours(material):
                 yield _with_material(design, number, neighbour)
-        elif isinstance(material, Mix | AnyElastic):
-            soil = number == len(names) - 1 or isinstance(material, Unbound)
+        elif isinstance(material, Mix | AnyElastic | StressDependent):
+            soil = number == len(names) - 1 or isinstance(material, Unbound | StressDependent)
             for sign, word in ((1.0, "stiffer"), (-1.0, "softer"))[: 1 if soil else 2]:
                 road = stiffer(design.road, number, 1 + sign * steps.modulus)
                 yield _on_road(design, road, number, f"{name} {100 * steps.modulus:g} % {word}")
