@@ -22,7 +22,7 @@ class Serving:
 
     def __init__(self, process, folder, printed):
         self.process, self.folder, self.printed = process, folder, printed
-        self.base = re.match("http://[^/]+/", printed)[0]
+        self.base = re.match("https?://[^/]+/", printed)[0]
         self.host = re.search("//([^/]+)/", printed)[1]
 
     @property
@@ -40,8 +40,8 @@ class Serving:
 
 
 @contextmanager
-def serving(folder, *options):
-    """A server of its own; nothing of it is left behind."""
+def serving(folder, *options, printed="http://127.0.0.1:"):
+    """A server of its own; nothing of it is left behind. printed: what its address begins with."""
     source = str(Path(tl.__file__).parents[1])
     # The server is no test: nicegui looks for signs of pytest in the environment.
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
@@ -51,7 +51,7 @@ def serving(folder, *options):
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=err, text=True, env=env, cwd=folder)
     try:
         line = process.stdout.readline()
-        assert line.startswith("treadload app: http://127.0.0.1:"), (folder / "err").read_text()
+        assert line.startswith(f"treadload app: {printed}"), (folder / "err").read_text()
         yield Serving(process, folder, line.split()[-1])
     finally:
         process.terminate()

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from treadload.errors import InputError, how_to_install
 
 __all__ = ["new_link", "serve"]
 
 
-def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True) -> None:
+def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True, service: Path | None = None) -> None:
     """Serve the page until it is interrupted.
 
     host: that it listens on; another than that of this machine lets others in who have an address of it. port: 0
-    takes a free one. open_browser: show the page at once. Raises InputError without the packages of the extra "app",
-    and for a port that is taken.
+    takes a free one. open_browser: show the page at once. service: a TOML file with the address of a proxy in front
+    of the server and limits of memory and time, see `treadload.app.service.ServiceFile`. Raises InputError without
+    the packages of the extra "app", for a port that is taken, and for a file that cannot be used.
     """
     try:
         import nicegui  # noqa: F401
@@ -20,8 +23,9 @@ def serve(*, host: str = "127.0.0.1", port: int = 0, open_browser: bool = True) 
     except ImportError as error:
         raise InputError(f"the page needs {error.name}, which is not installed; {how_to_install('app')}") from error
     from treadload.app.server import run
+    from treadload.app.service import Service
 
-    run(host, port, open_browser=open_browser)
+    run(host, port, service=None if service is None else Service.from_toml(service), open_browser=open_browser)
 
 
 def new_link(port: int = 0) -> str:

@@ -2,7 +2,8 @@
 
 A case is solved in a thread, part by part, and each part is shown as soon as it is there; requests for figures are
 answered meanwhile from what is held in memory. Results are NetCDF files in the folder of the browser, so that another
-process goes on where this one was stopped. `python -m treadload.app.engine` starts it.
+process goes on where this one was stopped. `python -m treadload.app.engine` starts it, with the most memory that it
+may use, MB, where there is a limit.
 """
 
 from __future__ import annotations
@@ -55,10 +56,10 @@ Say = Callable[..., None]
 
 
 class Engine:
-    """What one process holds. folder: of the browser's files."""
+    """What one process holds. memory: the most that it may use, MB; 0 without a limit."""
 
-    def __init__(self, write: Callable[[str], None]) -> None:
-        self._write, self._lock = write, threading.Lock()
+    def __init__(self, write: Callable[[str], None], memory: int = 0) -> None:
+        self._write, self._lock, self._memory = write, threading.Lock(), memory
         self._runs: OrderedDict[str, StoredRun] = OrderedDict()
         self._tires: OrderedDict[str, Tire] = OrderedDict()
         self._folder = Path()
@@ -111,7 +112,8 @@ class Engine:
         except TreadloadError as error:
             say(error=str(error))
         except MemoryError:
-            say(error="out of memory: the grid is too fine for this machine; use larger cells")
+            most = f"the {self._memory} MB that this server allows a case" if self._memory else "this machine"
+            say(error=f"out of memory: the grid is too fine for {most}; use larger cells")
         except Exception as error:
             print(f"treadload app: {type(error).__name__}: {error}", file=sys.stderr)
             say(error=f"the program failed: {type(error).__name__}: {error}")
@@ -370,8 +372,18 @@ def warm() -> None:
     map_figures.maps({case.source.makes[0]: contact}, theme="light")["maps"].to_json()
 
 
+def _limit(memory: int) -> None:
+    """Let allocations beyond so many MB fail with MemoryError. Linux counts data, not files that are mapped."""
+    import resource
+
+    resource.setrlimit(resource.RLIMIT_DATA, (memory * 10**6, resource.RLIM_INFINITY))
+
+
 def main() -> None:
     """Answer requests until there are no more."""
+    memory = int(sys.argv[1]) if len(sys.argv) > 1 else 0
+    if memory:
+        _limit(memory)
     # What libraries print must not mix with the answers.
     out = os.fdopen(os.dup(sys.stdout.fileno()), "w", encoding="utf-8")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
@@ -384,7 +396,7 @@ def main() -> None:
             # The page has ended, and nobody is left to be told.
             os._exit(0)
 
-    engine = Engine(write)
+    engine = Engine(write, memory)
     warm()
     write('{"id": 0, "warm": true}\n')
     with contextlib.suppress(KeyboardInterrupt):

@@ -13,6 +13,7 @@ from collections.abc import AsyncIterator
 from pathlib import Path
 from typing import Any
 
+from treadload.app.service import Limits
 from treadload.templates import KINDS
 
 # A figure of many cells is one line.
@@ -34,8 +35,8 @@ class EngineLost(Exception):
 class Engine:
     """A process, see `treadload.app.engine`. Questions and answers are told apart by numbers."""
 
-    def __init__(self, process: asyncio.subprocess.Process) -> None:
-        self._process = process
+    def __init__(self, process: asyncio.subprocess.Process, seconds: float | None = None) -> None:
+        self._process, self._seconds = process, seconds
         self._numbers = itertools.count(1)
         self._waiting: dict[int, asyncio.Queue[dict[str, Any] | None]] = {0: asyncio.Queue()}
         # Solves that the process has not ended yet, whether anybody still waits for them or not.
@@ -45,16 +46,17 @@ class Engine:
         self.used = time.monotonic()
 
     @classmethod
-    async def start(cls) -> Engine:
-        """A process that has loaded what it needs."""
+    async def start(cls, limits: Limits = Limits()) -> Engine:  # noqa: B008
+        """A process that has loaded what it needs. limits: of its memory, and of the time of a request."""
+        memory = [] if limits.memory is None else [str(limits.memory)]
         process = await asyncio.create_subprocess_exec(
-            sys.executable, "-P", "-m", "treadload.app.engine", limit=_LONGEST_LINE,
+            sys.executable, "-P", "-m", "treadload.app.engine", *memory, limit=_LONGEST_LINE,
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
             # Ctrl-C is for the page, which ends its processes; one that still loads would print where it was.
             start_new_session=True,
             env={**os.environ, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1")},
         )  # fmt: skip
-        engine = cls(process)
+        engine = cls(process, limits.time)
         if await engine._waiting[0].get() is None:
             raise EngineLost("the process that solves did not start; its reason stands in the terminal")
         return engine
@@ -75,18 +77,30 @@ class Engine:
         return self._process.pid
 
     async def ask(self, do: str, **question: object) -> AsyncIterator[dict[str, object]]:
-        """Answers as they come; the last holds "done", "error" or "stopped". Raises EngineLost."""
+        """Answers as they come; the last holds "done", "error" or "stopped".
+
+        Raises EngineLost where the process ends before it, as it does by the limit of time.
+        """
         number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
         self._waiting[number] = queue
         if do in KINDS:
             self._solving.add(number)
         self.used = time.monotonic()
+        until = None if self._seconds is None else asyncio.get_running_loop().time() + self._seconds
         try:
             if not self.lives:
                 raise EngineLost(_ENDED)
             await self._send({"id": number, "do": do, **question})
             while True:
-                answer = await queue.get()
+                try:
+                    async with asyncio.timeout_at(until):
+                        answer = await queue.get()
+                except TimeoutError:
+                    self.kill()
+                    raise EngineLost(
+                        f"this took longer than {self._seconds:g} s, the most that this server allows; use larger "
+                        "cells, or solve it by the command line"
+                    ) from None
                 if answer is None:
                     raise EngineLost(_ENDED)
                 yield answer
@@ -151,9 +165,10 @@ class Engine:
 
 
 class Engines:
-    """Starts processes ahead of need."""
+    """Starts processes ahead of need. limits: of each."""
 
-    def __init__(self) -> None:
+    def __init__(self, limits: Limits = Limits()) -> None:  # noqa: B008
+        self._limits = limits
         self._spare: asyncio.Task[Engine] | None = None
         self._later: asyncio.TimerHandle | None = None
         self._all: list[Engine] = []
@@ -168,7 +183,7 @@ class Engines:
         self._make_room()
         self._starting += 1
         try:
-            engine = await Engine.start()
+            engine = await Engine.start(self._limits)
         finally:
             self._starting -= 1
         self._all.append(engine)

@@ -64,7 +64,7 @@ class Page:
             text("h1", f"treadload, {self.title}")
             with ui.element("nav").classes("pages").props('aria-label="pages"'):
                 for address, words in pages.items():
-                    link = with_attributes(text("a", words), href=address)
+                    link = with_attributes(text("a", words), href=f".{address}")
                     if address == self.address:
                         link.props('aria-current="page"')
             self.stage = ui.label("starting").classes("stage").props('role="status" aria-live="polite" id="stage"')

@@ -16,18 +16,19 @@ from treadload.app.study_page import StudyPage
 from treadload.errors import InputError
 from treadload.registry import PAGES
 
+# Addresses on a page are relative: a proxy may put the pages below a path of its own.
 # The shell is there before any script has run, and goes when the page stands. Plotly brings a style sheet for maps of
 # the earth unless an element of that name is there; none is drawn here.
 _SHELL = """
 <div id="shell" aria-hidden="true"><div class="bar"><b>treadload</b></div></div>
 <template id="8431bff7cc77ea8693f8122c6e0981316b936a0a4930625e08b1512d134062bc"></template>
-<script src="/link.js"></script><script type="module" src="/look/bench.js"></script>
+<script src="./link.js"></script><script type="module" src="./look/bench.js"></script>
 """
 OURS: tuple[type[Page], ...] = (ContactPage, LifePage, StudyPage)
 LOOK = Path(__file__).parent / "look"
 _ADDRESS = re.compile("/[a-z0-9-]*")
 # Addresses of the server that are no pages.
-_TAKEN = ("/take", "/look")
+_TAKEN = ("/take", "/look", "/health")
 
 
 class BrokenPage(Page):
@@ -77,7 +78,7 @@ def _broken(name: str, problem: str) -> type[Page]:
 
 def build(session: Session, kind: type[Page], pages: list[type[Page]]) -> None:
     """Put a page of a session on one of its tabs."""
-    ui.add_head_html('<link rel="stylesheet" href="/look/bench.css">')
+    ui.add_head_html('<link rel="stylesheet" href="./look/bench.css">')
     ui.add_body_html(_SHELL)
     page = kind(session)
     page.build({page.address: page.title for page in pages})

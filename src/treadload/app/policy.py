@@ -33,25 +33,25 @@ def new_nonce() -> str:
     return secrets.token_urlsafe(18)
 
 
-def headers_of(nonce: str = "", host: str = "") -> list[tuple[bytes, bytes]]:
+def headers_of(nonce: str = "", socket: str = "") -> list[tuple[bytes, bytes]]:
     """The headers of an answer.
 
-    nonce: of the scripts and style sheets in it, "" where it has none. host: and port under which the browser knows
-    this server, "" for an answer that loads nothing.
+    nonce: of the scripts and style sheets in it, "" where it has none. socket: scheme and host of the page's
+    socket, such as "ws://127.0.0.1:8137", "" for an answer that loads nothing.
     """
-    headers = {"content-security-policy": _policy(nonce, host), **_FIXED}
+    headers = {"content-security-policy": _policy(nonce, socket), **_FIXED}
     return [(name.encode(), value.encode()) for name, value in headers.items()]
 
 
-def _policy(nonce: str, host: str) -> str:
+def _policy(nonce: str, socket: str) -> str:
     ends = "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    if not host:
+    if not socket:
         return f"default-src 'none'; {ends}"
     return (
         "default-src 'none'; "
         f"script-src 'self' 'nonce-{nonce}' 'unsafe-eval'; script-src-attr 'none'; "
         f"style-src 'self' 'nonce-{nonce}' {_EMPTY}; style-src-attr 'unsafe-inline'; "
-        f"img-src 'self' data: blob:; font-src 'self'; connect-src 'self' ws://{host}; {ends}"
+        f"img-src 'self' data: blob:; font-src 'self'; connect-src 'self' {socket}; {ends}"
     )
 
 

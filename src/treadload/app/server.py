@@ -25,6 +25,7 @@ from treadload.app.links import Links
 from treadload.app.page_frame import Page
 from treadload.app.pages import LOOK, build, registered_pages
 from treadload.app.policy import give_nonces
+from treadload.app.service import Service
 from treadload.app.sessions import TAB_GONE, Sessions
 from treadload.errors import InputError
 from treadload.plots.interactive import link_script
@@ -51,20 +52,22 @@ def free_port(host: str, port: int) -> int:
         return int(probe.getsockname()[1])
 
 
-def run(host: str, port: int, *, open_browser: bool) -> None:
+def run(host: str, port: int, *, service: Service | None = None, open_browser: bool) -> None:
     """Serve until interrupted."""
     port = free_port(host, port)
-    links = Links.begin(host, port, address_of(host, port))
+    service = Service() if service is None else service
+    proxy = service.proxy
+    links = Links.begin(host, port, address_of(host, port) if proxy is None else proxy.address)
     try:
-        _run(host, port, links, open_browser=open_browser)
+        _run(host, port, links, service, open_browser=open_browser and proxy is None)
     finally:
         links.end()
 
 
-def _run(host: str, port: int, links: Links, *, open_browser: bool) -> None:
-    engines = Engines()
+def _run(host: str, port: int, links: Links, service: Service, *, open_browser: bool) -> None:
+    engines, proxy = Engines(service.limits), service.proxy
     sessions = Sessions(engines, links.folder)
-    keys = Keys(host, port, links.use, sessions.end, _is_connected)
+    keys = Keys(host, port, links.use, sessions.end, _is_connected, proxy=proxy)
     prepare(keys, sessions)
 
     async def ready() -> None:
@@ -75,7 +78,7 @@ def _run(host: str, port: int, links: Links, *, open_browser: bool) -> None:
         # It begins a moment before it answers.
         while not Server.instance.started:
             await asyncio.sleep(0.01)
-        print(f"treadload app: {links.new()}", flush=True)
+        print(f"treadload app: {links.new() if proxy is None else proxy.address}", flush=True)
         if open_browser:
             webbrowser.open(links.for_browser())
 

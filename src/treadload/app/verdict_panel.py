@@ -56,7 +56,7 @@ class VerdictPanel:
                     plain("TOML", lambda: self._take("toml"), label="take the case home as TOML")
                     plain("copy as Python", lambda: self._take("python"))
                 for kind, words in self._home.items():
-                    with_attributes(text("a", words), href=f"/take/{run.name}/{kind}", data_take=kind).props(
+                    with_attributes(text("a", words), href=f"./take/{run.name}/{kind}", data_take=kind).props(
                         "download"
                     )
             if self._has_case:
@@ -73,7 +73,7 @@ class VerdictPanel:
                 ui.label(sentence).classes("note")
             with ui.element("p").classes("note"):
                 ui.html("Load repetitions of this one load at this one temperature, not a life: that is on the "
-                        '<a href="/life">life page</a>.', sanitize=False)  # fmt: skip
+                        '<a href="./life">life page</a>.', sanitize=False)  # fmt: skip
 
     def _tables(self, rows: Sequence[PageRow]) -> None:
         """Rows under their headings; of a group the first, and the others when they are asked for."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -21,6 +22,10 @@ def app(
     open_browser: Annotated[
         bool, typer.Option("--open/--no-open", help="Show the page in a browser at once.")
     ] = True,
+    service: Annotated[
+        Path | None,
+        typer.Option(help="TOML file of a proxy with authentication in front of the page, and of limits."),
+    ] = None,
     new_link: Annotated[
         bool,
         typer.Option("--new-link", help="Print a new address, good for one visit, of the page that runs, and end."),
@@ -33,7 +38,7 @@ def app(
     if new_link:
         typer.echo(f"treadload app: {another(port)}")
         return
-    if host not in (_HERE, "localhost", "::1"):
+    if service is None and host not in (_HERE, "localhost", "::1"):
         shell.err.print(
             f"listening on {host}: whoever reaches this machine and has an address like the one below can solve "
             "cases on it; what is sent is not encrypted",
@@ -43,6 +48,6 @@ def app(
         # The server knows the others, and closes its sessions.
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     try:
-        serve(host=host, port=port, open_browser=open_browser)
+        serve(host=host, port=port, open_browser=open_browser, service=service)
     except KeyboardInterrupt:
         raise KeyboardInterrupt("the page is closed, and results that were not taken home are gone") from None
