@@ -160,7 +160,7 @@ def test_bad_service_files_are_refused(tmp_path, change, words):
 
 
 def test_a_secret_is_long_and_private(tmp_path):
-    with pytest.raises(InputError, match="needs 32 .*got 5"):
+    with pytest.raises(InputError, match=r"needs 32 .*got 5"):
         Service.from_toml(written(tmp_path, WHOLE, secret="short"))
     with pytest.raises(InputError, match="chmod 600"):
         Service.from_toml(written(tmp_path, WHOLE, mode=0o644))
@@ -190,5 +190,5 @@ def test_a_case_beyond_the_memory_is_an_error_and_not_the_end_of_the_machine(tmp
 
 @pytest.mark.slow
 def test_a_case_beyond_the_time_ends_with_its_process(tmp_path):
-    with pytest.raises(EngineLost, match="longer than 5 s.*larger cells"):
+    with pytest.raises(EngineLost, match=r"longer than 5 s.*larger cells"):
         solved(Limits(time=5.0), tmp_path, spacing="0.4 mm")
