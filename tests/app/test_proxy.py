@@ -111,9 +111,7 @@ def test_two_users_solve_behind_nginx(chromium, address):
     assert its_page.request.get(link).status == 404
     assert not its_errors
     # Anna's cookie under Bert's name opens nothing.
-    thief = chromium.new_context(
-        ignore_https_errors=True, http_credentials={"username": "bert", "password": "berts"}
-    )
+    thief = chromium.new_context(ignore_https_errors=True, http_credentials={"username": "bert", "password": "berts"})
     thief.add_cookies([cookie])
     assert thief.request.get(link).status == 403
     for each in (context, other, thief):
