@@ -88,9 +88,13 @@ def test_a_source_distribution_holds_all_that_is_tracked():
 
 
 def test_data_of_others_come_with_their_licences():
-    """Every folder with a source has its licence beside it, or is public by its words."""
+    """Each file is named in the table of sources; files of others have their licence beside them or are public."""
     data = ROOT / "src/treadload/catalogue/data"
-    for source in data.rglob("SOURCE.md"):
+    listed = re.findall(r"^\| `([^`]+)`", (data / "SOURCE.md").read_text(encoding="utf-8"), re.MULTILINE)
+    files = [path.relative_to(data) for path in data.rglob("*") if path.is_file() and path.parent != data]
+    assert [path for path in files if not any(path.match(pattern) for pattern in listed)] == []
+    assert all(list(data.glob(pattern)) for pattern in listed)
+    for source in data.glob("*/SOURCE.md"):
         beside = list(source.parent.glob("LICENSE*"))
         words = source.read_text(encoding="utf-8").casefold()
         assert beside or "data of the united states government, public" in words, source
