@@ -5,7 +5,7 @@ import pytest
 from tests.grain import STRAIGHT, TILTED, isotropic
 
 import treadload as tl
-from treadload.life.variants import stiffer
+from treadload.life.stiffer import stiffer
 from treadload.materials.kinds import upright
 from treadload.materials.orthotropic import rotation
 

@@ -11,7 +11,7 @@ from treadload.catalogue import mixes
 from treadload.errors import ConvergenceError, InputError
 from treadload.life.seasons import roads_of
 from treadload.life.solve import solve_life
-from treadload.life.variants import stiffer
+from treadload.life.stiffer import stiffer
 from treadload.materials import (
     AtStress,
     Bilinear,

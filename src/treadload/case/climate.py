@@ -11,25 +11,38 @@ from typing import Annotated, Any, ClassVar
 from pydantic import model_validator
 
 from treadload.damage import Climate, Season
-from treadload.damage.climate import MONTHS, PARTS
+from treadload.damage.climate import MONTHS, PARTS, month_of
 from treadload.damage.thermal import Thermal
 from treadload.errors import InputError
 from treadload.materials import GlobalAging
-from treadload.pavement import Heat, Pavement, RoadTemperatures, Weather, divided, read_weather, road_temperatures
+from treadload.pavement import (
+    Frost,
+    Heat,
+    Pavement,
+    RoadTemperatures,
+    Weather,
+    divided,
+    frost_year,
+    read_weather,
+    road_temperatures,
+)
 from treadload.read import As, Table, table_of
 from treadload.units import Angle, Celsius, Kelvin, Length, Number, Share, Years
 
 
-def _season(name: str, share: Share, temperature: Celsius | tuple[Celsius, ...]) -> Season:
+def _season(
+    name: str, share: Share, temperature: Celsius | tuple[Celsius, ...], factors: dict[str, Number] | None = None
+) -> Season:
     """A part of the year with its temperatures.
 
     name: for tables. share: of the passes, in [0, 1]. temperature: of all layers, or one for each, surface first.
+    factors: on the moduli of layers by their names, as of a thawing soil.
     """
-    return Season(name, share, temperature)
+    return Season(name, share, temperature, factors=tuple((factors or {}).items()))
 
 
 _Season: Any = table_of(_season)
-SEASONS, HEAT, THERMAL = As(tuple[_Season, ...]), As(Heat), As(bool | Thermal)
+SEASONS, HEAT, THERMAL, FROST = As(tuple[_Season, ...]), As(Heat), As(bool | Thermal), As(bool | Frost)
 
 
 class AirPart(Table):
@@ -80,7 +93,8 @@ class ClimatePart(Table):
     out, all alike. sublayers: greatest thickness of the parts that courses are divided into below a file or air, or
     where they age; left out, 20 mm at the surface and more below. heat: what the road absorbs, conducts and stores.
     thermal: daily thermal stress in the damage, beside the passes; left out, it counts with its defaults below a file
-    or air; false for none; see docs/explanation/climate.md.
+    or air; false for none; see docs/explanation/climate.md. frost: true, or how unbound layers freeze and thaw below
+    a file or air, which changes their moduli from month to month; left out, they stay as they are.
     """
 
     one_of: ClassVar = ("temperature", "months", "seasons", "file", "air")
@@ -95,6 +109,7 @@ class ClimatePart(Table):
     sublayers: Length | None = None
     heat: Annotated[Any, HEAT] = None
     thermal: Annotated[Any, THERMAL] = True
+    frost: Annotated[Any, FROST] = False
 
     @model_validator(mode="after")
     def _one_kind(self) -> ClimatePart:
@@ -104,7 +119,7 @@ class ClimatePart(Table):
             raise ValueError(f"give exactly one of temperature, months, seasons, file and air, got {got}")
         if self.months is not None and len(self.months) != len(MONTHS):
             raise ValueError(f"months needs 12 temperatures in °C, January first, got {len(self.months)}")
-        stray = {"parts_of_day", "hours", "heat", "thermal"} & self.model_fields_set
+        stray = {"parts_of_day", "hours", "heat", "thermal", "frost"} & self.model_fields_set
         if not self.has_weather and stray:
             raise ValueError(f"{sorted(stray)[0]} belongs to a climate of weather; leave it out, or give file or air")
         return self
@@ -128,15 +143,23 @@ class ClimatePart(Table):
         thermal = THERMAL.build(self.thermal)
         if isinstance(thermal, bool):
             thermal = Thermal() if thermal else None
-        return replace(climate, thermal=thermal)
+        climate = replace(climate, thermal=thermal)
+        frost = FROST.build(self.frost)
+        if frost is False:
+            return climate
+        year = frost_year(road, temperatures, Frost() if frost is True else frost, self._heat())
+        return climate.with_frost(year, [month_of(season.name) for season in climate.seasons])
 
     def temperatures(self, road: Pavement, folder: Path) -> RoadTemperatures:
         """Temperatures of a road below the weather, at the middles of its parts and all interfaces."""
         parts, _ = divided(road, thickest=self.sublayers)
         ends = [float(interface) for interface in parts.interfaces]
         middles = [0.5 * (a + b) for a, b in zip([0.0, *ends], ends, strict=False)]
-        heat = Heat() if self.heat is None else HEAT.build(self.heat)
-        return _road_temperatures(road, self.weather(folder), tuple(sorted({0.0, *middles, *ends})), heat)
+        return _road_temperatures(road, self.weather(folder), tuple(sorted({0.0, *middles, *ends})), self._heat())
+
+    def _heat(self) -> Heat:
+        heat: Heat = Heat() if self.heat is None else HEAT.build(self.heat)
+        return heat
 
     def weather(self, folder: Path) -> Weather:
         """The weather. Raises InputError where there is none."""

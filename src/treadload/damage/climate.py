@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -14,7 +14,8 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials import Mix
 from treadload.materials.ageing import Ageing
-from treadload.pavement import Pavement, RoadTemperatures, TemperatureProfile
+from treadload.pavement import FrostYear, Pavement, RoadTemperatures, TemperatureProfile
+from treadload.pavement.frost import named_factors
 from treadload.tables import finite_list
 from treadload.units import Celsius, Length, Share
 
@@ -39,7 +40,8 @@ class Season:
     name: for tables. share: of the passes, in [0, 1]. temperature: °C, of all layers, or one for each, surface
     first; or a TemperatureProfile, over depth. sublayers: the greatest thickness of the parts into which courses are
     divided below a profile, m; left out, by the rule of `pavement.divided`. ageing: of the mixes, over depth.
-    Raises InputError.
+    factors: on the moduli of elastic and stress-dependent layers, by their names, as of frost, thaw and moisture; a
+    mapping is taken, too. Raises InputError.
     """
 
     name: str
@@ -47,10 +49,13 @@ class Season:
     temperature: Celsius | tuple[Celsius, ...] | TemperatureProfile
     sublayers: Length | None = None
     ageing: Ageing | None = None
+    factors: tuple[tuple[str, float], ...] = ()
 
     def __post_init__(self) -> None:
         if not 0 <= self.share <= 1:
             raise InputError(f"the share of {self.name!r} must lie in [0, 1], got {self.share}; a month is 1/12")
+        pairs = self.factors if isinstance(self.factors, Mapping) else dict(self.factors)
+        object.__setattr__(self, "factors", named_factors(pairs))
         if isinstance(self.temperature, Sequence):
             object.__setattr__(self, "temperature", tuple(float(t) for t in self.temperature))
         if not np.isfinite(self.temperatures).all():
@@ -161,6 +166,19 @@ class Climate:
         labels = names or [f"{k + 1} of {count}" for k in range(count)]
         return cls(tuple(Season(n, 1 / count, t) for n, t in zip(labels, temperatures, strict=True)))
 
+    def with_frost(self, frost: FrostYear, months: Sequence[int]) -> Climate:
+        """The climate with the moduli of frozen and thawing layers in its seasons.
+
+        months: of each season, 1 to 12. Raises InputError for another number of them.
+        """
+        if len(months) != len(self.seasons):
+            raise InputError(f"the climate has {len(self.seasons)} seasons, got {len(months)} months")
+        by_month = {month: tuple(frost.factor(month).items()) for month in set(months)}
+        seasons = tuple(
+            replace(season, factors=by_month[month]) for season, month in zip(self.seasons, months, strict=True)
+        )
+        return replace(self, seasons=seasons, about=(*self.about, str(frost)))
+
     def within(self, sublayers: float | None, ageing: Ageing | None) -> Climate:
         """The same climate with the road's courses divided, see `Season`."""
         parts = tuple(replace(season, sublayers=sublayers, ageing=ageing) for season in self.seasons)
@@ -228,6 +246,11 @@ class Climate:
             road_temperatures.assumed,
             TypicalDays.of(road_temperatures),
         )
+
+
+def month_of(name: str) -> int:
+    """Month, 1 to 12, of a season that `Climate.of_road` named."""
+    return MONTHS.index(name.partition(",")[0]) + 1
 
 
 def _ageing_caveat(ageing: Ageing | None) -> tuple[str, ...]:

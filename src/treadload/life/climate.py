@@ -27,9 +27,9 @@ _POWERS = (3, 5, 12)
 def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | None:
     """What orders the roads of a climate, of which strains are smoother functions than of temperature.
 
-    Of seasons of one temperature the mean of the layers' ln E, (road,). Of profiles over depth, the few combinations
-    of the layers' ln E in which the roads differ, (road, k), the widest from 0 to 1. None where these do not tell the
-    roads apart, or layers have temperatures of their own.
+    Of seasons of one temperature the mean of the layers' ln E, (road,). Of profiles over depth, and with factors on
+    layers, the few combinations of the layers' ln E in which the roads differ, (road, k), the widest from 0 to 1.
+    None where these do not tell the roads apart, or layers have temperatures of their own.
     """
     if any(isinstance(season.temperature, tuple) for season in seasons):
         return None
@@ -38,7 +38,7 @@ def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | N
     if any(len(elastic) < len(row) for elastic, row in zip(moduli, materials, strict=True)):
         return None
     warmth: Array = np.log(moduli)
-    deep = any(season.profile is not None for season in seasons)
+    deep = any(season.profile is not None or season.factors for season in seasons)
     warmth = _apart(warmth) if deep else warmth.mean(axis=1)
     return warmth if len(np.unique(warmth, axis=0)) == len(warmth) else None
 

@@ -12,9 +12,11 @@ from treadload.damage.criterion import Criterion
 from treadload.damage.frequency import contact_radius
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.traffic import AxleClass
-from treadload.errors import InputError
+from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
-from treadload.materials import Mix
+from treadload.life.stiffer import names_of, stiffer
+from treadload.materials import Mix, StressDependent
+from treadload.materials.kinds import AnyElastic
 from treadload.pavement import Pavement, TemperatureProfile
 from treadload.pavement.sublayers import divided, middle_temperatures
 from treadload.response import UniformDisc, settle
@@ -74,6 +76,7 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: A
     moduli of its wheels, discs of the wheel load under the inflation pressure, and nominal ones without a class.
     Raises InputError for temperatures that do not fit the road, ConvergenceError for moduli that do not settle.
     """
+    road = _in_season(road, season)
     temperature = season.temperature
     if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
         raise InputError(
@@ -98,6 +101,21 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: A
     pairs = zip(placed, criteria, strict=True)
     placed_in = tuple(new.at(_at_layer(old, road, season)) for new, old in pairs)
     return _settled(Warm(warm, placed_in), row) if warm.depends_on_stress else Warm(warm, placed_in)
+
+
+def _in_season(road: Pavement, season: Season) -> Pavement:
+    """The road with the factors of the season on the moduli of its layers. Raises InputError for a strange name."""
+    names = names_of(road)
+    for name, factor in season.factors:
+        if name not in names:
+            raise InputError(f"season {season.name!r} has a factor of the layer {name!r}; {nearest(name, names)}")
+        number = names.index(name)
+        if not isinstance(road.layers[number].material, AnyElastic | Mix | StressDependent):
+            raise InputError(
+                f"season {season.name!r} has a factor of {name!r}, which has no single modulus; leave it out"
+            )
+        road = stiffer(road, number, factor)
+    return road
 
 
 def _settled(warm: Warm, row: AxleClass | None) -> Warm:

@@ -22,6 +22,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
+from treadload.life.stiffer import names_of, stiffer
 from treadload.life.thermal import daily_cycles
 from treadload.life.threads import pool_of
 from treadload.life.variants import (
@@ -31,8 +32,6 @@ from treadload.life.variants import (
     friction_number,
     in_seasons,
     most,
-    names_of,
-    stiffer,
     thicker,
 )
 from treadload.materials import Mix, StressDependent

@@ -16,8 +16,8 @@ from treadload.damage.scatter import check_risks
 from treadload.errors import InputError, nearest, positive
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
+from treadload.life.stiffer import names_of
 from treadload.life.thickness_search import ThicknessSearch, has_risk
-from treadload.life.variants import names_of
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
 from treadload.units import years_in_words

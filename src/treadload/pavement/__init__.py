@@ -4,6 +4,7 @@ from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift
 from treadload.pavement.bond_tests import RECALLED_STIFFNESS, ShearTest, TestedBond
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded, Parted
 from treadload.pavement.catalogue import Structure
+from treadload.pavement.frost import Frost, FrostYear, Moisture, frost_index, frost_year
 from treadload.pavement.heating import Heat, RoadTemperatures, bells, road_temperatures
 from treadload.pavement.layer import Layer
 from treadload.pavement.methods import methods_of
@@ -23,10 +24,13 @@ __all__ = [
     "RECALLED_STIFFNESS",
     "Bond",
     "BondLaw",
+    "Frost",
+    "FrostYear",
     "HalfBonded",
     "Heat",
     "Layer",
     "LayerRow",
+    "Moisture",
     "Parted",
     "Pavement",
     "Relief",
@@ -43,6 +47,8 @@ __all__ = [
     "bells",
     "bituminous_thickness",
     "divided",
+    "frost_index",
+    "frost_year",
     "is_bituminous",
     "layer_rows",
     "lift_below",

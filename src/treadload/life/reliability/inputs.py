@@ -13,7 +13,8 @@ from treadload.damage.laws.french import thickness_scatter
 from treadload.damage.scatter import Scatter
 from treadload.damage.traffic import Traffic
 from treadload.errors import InputError, nearest
-from treadload.life.variants import Question, names_of, stiffer, thicker
+from treadload.life.stiffer import names_of, stiffer
+from treadload.life.variants import Question, thicker
 from treadload.materials import Mix, StressDependent
 from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement import Pavement

@@ -10,7 +10,7 @@ from treadload.errors import InputError, nearest
 from treadload.life.design import Design
 from treadload.life.remedy.changes import Change, NotApplicable, Remedy
 from treadload.life.remedy.steps import RemedySteps
-from treadload.life.variants import names_of, stiffer
+from treadload.life.stiffer import names_of, stiffer
 from treadload.materials import HydraulicMix, Mix, StressDependent, Unbound, UnboundByStress
 from treadload.materials.kinds import AnyElastic
 from treadload.materials.library import mixes
