@@ -17,15 +17,17 @@ import sys
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from treadload.app import map_figures
+from treadload.app.basin_points import about_basins, basin_figures, basin_rows, basins_of
+from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
 from treadload.app.result_rows import allowed_rows, rows_of
 from treadload.app.stored_run import Stopped, StoredRun
-from treadload.app.study_points import about_study, point_of, point_rows
+from treadload.app.study_points import about_study, point_of, point_rows, study_of
 from treadload.app.unsolved import left_out
 from treadload.case import Case
 from treadload.composing import BaseResult
@@ -41,7 +43,6 @@ from treadload.steps.chain import run as run_case
 from treadload.steps.footprint import FootprintStep
 from treadload.steps.loaded import Loaded, contact_of, load_case
 from treadload.steps.scene import Options, Progress, Scene, stream
-from treadload.sweeps import Sweep
 from treadload.templates import KINDS, first_case
 from treadload.tire import Tire
 
@@ -84,7 +85,7 @@ class Engine:
             "folder": self._take_folder, "maps": self._maps, "cut": self._cut, "difference": self._difference,
             "tread": self._tread, "export": self._export, "section": self._section, "open": self._open,
             "study": self._study, "point": self._point, "shares": self._shares, "pictures": self._pictures,
-            "gallery": self._gallery, "picture": self._picture,
+            "gallery": self._gallery, "picture": self._picture, "basins": self._basins, "basin": self._basin,
         }  # fmt: skip
         self._guarded(say, answers[do], request)
 
@@ -319,24 +320,31 @@ class Engine:
             parts: dict[str, BaseResult] = {FootprintStep.makes[0]: FootprintStep(file=file).read(self._folder)}
             self._keep(run, StoredRun(None, parts))
             save_results(to_tree(parts), self._folder / f"{run}.nc")
-        elif kind == "study":
-            opened = open_results(path)
-            about_study(_study_of(opened.parts))
-            shutil.copyfile(path, self._folder / f"{run}.nc")
         else:
-            opened = open_results(path)
-            map_figures.maps(dict(opened.parts), theme="light")
+            check_opened(kind, open_results(path).parts)
             shutil.copyfile(path, self._folder / f"{run}.nc")
         say(done=True)
 
     def _study(self, say: Say, run: str) -> None:
-        say(**about_study(_study_of(self._run_of(run).parts)), done=True)
+        say(**about_study(study_of(self._run_of(run).parts)), done=True)
 
     def _point(self, say: Say, run: str, at: dict[str, int], reading: str, along: str, field: str, theme: str,
                width: float) -> None:  # fmt: skip
-        study = _study_of(self._run_of(run).parts)
+        study = study_of(self._run_of(run).parts)
         say(point_of(study, at, reading, along, field, theme, width), rows=point_rows(study, at),
             warnings=list(study.warnings), done=True)  # fmt: skip
+
+    def _basins(self, say: Say, run: str) -> None:
+        say(**about_basins(basins_of(self._run_of(run).parts)), done=True)
+
+    def _basin(self, say: Say, run: str, drop: int, theme: str) -> None:
+        result = basins_of(self._run_of(run).parts)
+        say(
+            basin_figures(result, drop, theme),
+            rows=basin_rows(result, drop),
+            warnings=list(result.warnings),
+            done=True,
+        )
 
     # Taking home.
 
@@ -355,14 +363,6 @@ class Engine:
             return result_of(scene)
 
         say(done=True, file=write_export(stored.parts, whole, kind, self._folder, run, view or {}))
-
-
-def _study_of(parts: Mapping[str, BaseResult]) -> Sweep:
-    """The study among the results of a file. Raises InputError."""
-    study = next((part for part in parts.values() if isinstance(part, Sweep)), None)
-    if study is None:
-        raise InputError(f"this file holds {', '.join(parts)} and no study; results of one case open on the bench")
-    return study
 
 
 def warm() -> None:

@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.basins_page import BasinsPage
 from treadload.app.contact_page import ContactPage
 from treadload.app.life_page import LifePage
 from treadload.app.page_frame import Page
@@ -24,7 +25,7 @@ _SHELL = """
 <template id="8431bff7cc77ea8693f8122c6e0981316b936a0a4930625e08b1512d134062bc"></template>
 <script src="./link.js"></script><script type="module" src="./look/bench.js"></script>
 """
-OURS: tuple[type[Page], ...] = (ContactPage, LifePage, StudyPage)
+OURS: tuple[type[Page], ...] = (ContactPage, LifePage, StudyPage, BasinsPage)
 LOOK = Path(__file__).parent / "look"
 _ADDRESS = re.compile("/[a-z0-9-]*")
 # Addresses of the server that are no pages.
@@ -54,7 +55,9 @@ def registered_pages() -> list[type[Page]]:
             pages.append(_checked(name, {page.address for page in pages}))
         except InputError as error:
             pages.append(_broken(name, str(error)))
-    return sorted(pages, key=lambda page: issubclass(page, BrokenPage))
+    # Ours in their order, those of other packages behind them, broken ones last.
+    place = {page: number for number, page in enumerate(OURS)}
+    return sorted(pages, key=lambda page: (issubclass(page, BrokenPage), place.get(page, len(OURS))))
 
 
 def _checked(name: str, taken: set[str]) -> type[Page]:

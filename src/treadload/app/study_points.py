@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import Any
 
 from treadload.app.result_rows import PageRow
+from treadload.composing import BaseResult
 from treadload.describing import title_of
 from treadload.errors import InputError
 from treadload.plots.interactive.study import placed, study_curve, study_map, study_maps
@@ -15,6 +17,14 @@ from treadload.sweeps import Sweep
 
 # Values of a slider, results and characters of a label that a browser is sent.
 _MOST_VALUES, _MOST_ROWS, _MOST_LETTERS = 2000, 40, 80
+
+
+def study_of(parts: Mapping[str, BaseResult]) -> Sweep:
+    """The study among the results of a file. Raises InputError."""
+    study = next((part for part in parts.values() if isinstance(part, Sweep)), None)
+    if study is None:
+        raise InputError(f"this file holds {', '.join(parts)} and no study; results of one case open on the bench")
+    return study
 
 
 def about_study(study: Sweep) -> dict[str, object]:

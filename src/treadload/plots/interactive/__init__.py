@@ -4,6 +4,7 @@ Functions of datasets, as all figures of the house, so that a file is enough; th
 extra "app" brings.
 """
 
+from treadload.plots.interactive.basins import basin_fit, moduli_profile
 from treadload.plots.interactive.browser_grids import MOST_HELD, held_numbers, profile_held, section_held
 from treadload.plots.interactive.cut import Cut, depth_slice, profiles
 from treadload.plots.interactive.drawing import figure
@@ -43,6 +44,7 @@ __all__ = [
     "LinkedView",
     "Place",
     "Theme",
+    "basin_fit",
     "choices",
     "colour_scale",
     "contact_view",
@@ -56,6 +58,7 @@ __all__ = [
     "link_script",
     "linked_maps",
     "marked",
+    "moduli_profile",
     "places_of",
     "plotly_script",
     "pressure_field",
