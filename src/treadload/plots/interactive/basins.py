@@ -131,7 +131,7 @@ def _drop_of(source: Source, drop: int) -> xr.Dataset:
     return data.isel(basin=drop)
 
 
-def _pair(x: Array, values: tuple[Array, Array], color: str, name: str, unit: str) -> list[dict[str, Any]]:
+def _pair(x: Array, values: tuple[Array, Array], color: str, name: str, unit: str) -> list[dict[str, object]]:
     """Traces of measured readings as dots and of the fit as a line."""
     measured, fitted = values
     behind = f", {name}" if name else ""
