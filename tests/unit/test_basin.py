@@ -6,6 +6,7 @@ import pytest
 from treadload.case import Case
 from treadload.damage import Criterion, FatigueLine, FrenchSubgrade
 from treadload.grid import Grid
+from treadload.life.crossings import CrackLines, stresses
 from treadload.life.passage import BEHIND, BORDER, Passing, passages
 from treadload.life.seasons import Warm
 from treadload.life.solve import solve_sum
@@ -101,6 +102,21 @@ def test_away_from_the_wheel_it_is_the_response_of_the_same_load():
         size = float(np.abs(exact[name]).max())
         # Blur, coarse cells and waves leave 0.5 % of the largest, 90 mm from the footprint.
         np.testing.assert_allclose(coarse[name], exact[name], atol=0.005 * size, err_msg=name)
+
+
+def test_stress_for_cracks_is_that_of_a_reading():
+    """Under the wheel, in a stiff course on soft soil too: 1e-6 of the largest stress of a component at a depth."""
+    rolling, depths = wheels(), np.array([0.0, 0.004, 0.02, 0.05])
+    soft = Pavement([Layer(Elastic(20e9, 0.35), 0.06), Layer(Elastic(20e6, 0.4))])
+    for road in (ROAD, soft):
+        lines = CrackLines.of(rolling, Y, 1.5)
+        (stress,) = stresses(rolling, [Warm(road, ())], depths, lines)
+        names = [f"stress_{part}" for part in ("xx", "yy", "zz", "xy", "xz", "yz")]
+        x, y = lines.x[lines.near_x], lines.y[lines.near_y]
+        (read,) = tensors_of_many([Question(rolling.joined, road, depths)], x, y, needs=names)
+        near = stress[:, :, lines.near_y[:, None], lines.near_x]
+        exact = np.stack([read[name].to_numpy() for name in names])
+        assert np.abs(near - exact).max() <= 1e-6 * np.abs(exact).max()
 
 
 def test_the_surface_hogs_around_the_wheel_and_is_read_there():

@@ -12,11 +12,13 @@ import scipy
 
 from treadload.damage.growth.intensity import BREAK
 from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.layers.synthesis import CRACKS
 from treadload.life.climate import curves, first_nodes
 from treadload.life.seasons import Warm
 from treadload.life.wheels import MARGIN, Wheels
 from treadload.response.basin import basin_tensors
-from treadload.response.several import Question, tensors_of_many
+from treadload.response.layered import View
+from treadload.response.several import Question, answers, components_of
 
 # Points near a wheel and apart from it, m, along travel and across it; how far from its edges they reach, and how far
 # around them the finer ones do. Beyond, in the basin, points stand further apart.
@@ -95,19 +97,22 @@ def stresses(wheels: Wheels, roads: Sequence[Warm], depths: Array, lines: CrackL
     at: dict[str, Any] = {"needs": _STRESS, "side": "above"}
     at["speed"] = wheels.speed if roads[0].road.is_viscoelastic else None
     around = basin_tensors([Question(wheels.coarse, road.road, depths) for road in roads], lines.x, lines.y, **at)
-    near = tensors_of_many(
+    components = components_of(_STRESS)
+    assert components is not None
+    view = View(lines.x[lines.near_x], lines.y[lines.near_y], components=components, accuracy=CRACKS)
+    near = answers(
         [Question(wheels.joined, road.road, depths) for road in roads],
-        lines.x[lines.near_x],
-        lines.y[lines.near_y],
-        **at,
+        view,
+        side="above",
+        speed=at["speed"],
+        mean_over=None,
     )
     assert around is not None
-    assert near is not None
     block = np.ix_(lines.near_y, lines.near_x)
     result = []
     for far, close in zip(around, near, strict=True):
         stress = np.stack([far[name].to_numpy() for name in _STRESS])
-        stress[:, :, block[0], block[1]] = np.stack([close[name].to_numpy() for name in _STRESS])
+        stress[:, :, block[0], block[1]] = close.fields.stress
         result.append(stress)
     return result
 

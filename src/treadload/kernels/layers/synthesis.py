@@ -90,6 +90,8 @@ FULL = Accuracy(33.0, 1e-7, 8, 10)
 READING = Accuracy(28.0, 1e-4, 4, 6, np.float32)
 # The same with double numbers, where the largest of many values is looked for.
 SEARCH = replace(READING, precision=np.float64)
+# Stress in the layers that cracks grow through: 1e-6 of the largest on soft soil, a quarter of the cost of a reading.
+CRACKS = Accuracy(20.0, 1e-3, 3, 5, np.float32, phase=72.0)
 # The basin around wheels, beyond three deviations of what they load: bending alone, with no edge of a rib.
 BASIN = Accuracy(28.0, 1e-3, 3, 5, np.float32, blur=0.028, phase=72.0)
 
