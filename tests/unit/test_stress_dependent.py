@@ -385,3 +385,10 @@ def test_a_case_is_run_to_its_verdict(tmp_path):
     tl.save_results(result, tmp_path / "run.nc")
     assert tl.open_results(tmp_path / "run.nc")["response"].road == response.road
     assert "stress-dependent" in response.cites()
+    tl.report(result, tmp_path / "run.html")
+    html = (tmp_path / "run.html").read_text(encoding="utf-8")
+    assert "kN/m³" in html
+    uniform = tl.damage.compare_uniform(result.contact, response.road)
+    # Bottoms of layers, not of the parts of those that depend on stress.
+    assert uniform.dataset["depth"].to_numpy()[-1] == pytest.approx(0.33)
+    assert uniform.dataset.sizes["depth"] < 12

@@ -18,6 +18,7 @@ from treadload.damage.quantities import Extension, HorizontalTension, VerticalCo
 from treadload.damage.quantity import Quantity
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
+from treadload.materials import AtStress
 from treadload.pavement import Pavement
 from treadload.response import MATERIAL_LENGTH, GridLoad, UniformDisc, UniformRectangle, place_load, solve_response
 from treadload.response.material import check_length
@@ -145,7 +146,14 @@ def _depths(road: Pavement, cell: float, mean_over: float | None) -> Array:
     # In the upper half of the uppermost cube the mean is that of the surface.
     above = 0.5 * (mean_over or 0.0)
     inside = [z for z in (0.005, 0.01, 0.02, 0.04, 0.08, 0.12, 0.16) if z >= 0.5 * cell and z > above]
-    ends = road.interfaces
+    # Not the parts into which a stress-dependent layer is divided.
+    laws = [layer.material.law if isinstance(layer.material, AtStress) else None for layer in road.layers]
+    below = [*laws[1:], None]
+    ends = [
+        float(z)
+        for z, law, next_law in zip(road.interfaces, laws, below, strict=False)
+        if law is None or law != next_law
+    ]
     return np.round([0.0, *[z for z in inside if not len(ends) or z < ends[-1]], *ends], 9)
 
 
