@@ -1,7 +1,8 @@
-"""`python tests/installed.py`: README's blocks and every command with the installed treadload, outside the clone.
+"""`python tests/installed.py`: blocks of README and docs, and every command, of the installed treadload.
 
-For an environment that holds the wheel and nothing of the tests: `.ci/wheel` makes it, from the lowest or the newest
-version of every requirement. Works in a folder of its own; prints a line a step and ends with the steps that failed.
+Outside the clone, for an environment that holds the wheel and nothing of the tests: `.ci/wheel` makes it, from the
+lowest or the newest version of every requirement. Works in a folder of its own; prints a line a step and ends with the
+steps that failed.
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ from pathlib import Path
 
 TESTS = Path(__file__).parent
 README = TESTS.parent / "README.md"
+# Pages whose blocks are run after those of the README.
+PAGES = ("docs/howto/command_line.md", "docs/tutorials/hot_road.md")
 SECONDS = 900.0
 # A page is served until it is stopped, and every row of the validation takes minutes.
 LEFT_OUT = ("app", "validate")
@@ -34,7 +37,8 @@ def commands(program: list[str], environment: dict[str, str]) -> list[str]:
 
 def steps(program: list[str], environment: dict[str, str], validate: bool) -> list[tuple[str, list[str]]]:
     """(name, command) of every step, in order."""
-    blocks = [(kind, text) for kind, text in BLOCK.findall(README.read_text(encoding="utf-8"))]
+    pages = [README, *(TESTS.parent / page for page in PAGES)]
+    blocks = [block for page in pages for block in BLOCK.findall(page.read_text(encoding="utf-8"))]
     python = [text for kind, text in blocks if kind == "python"]
     # The second block goes on with the results of the first.
     scripts = ["\n".join(python[:2]), *python[2:]]

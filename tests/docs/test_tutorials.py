@@ -58,6 +58,7 @@ WRITES = {
         "overlay.toml",
         "overlay_design.nc",
     },
+    "hot_road": set(),
     "my_own_traffic": {"life.toml", "mine.nc", "mine.html", "years.png", "shares.png", "more.nc"},
 }
 
