@@ -1,8 +1,8 @@
 """`python tests/installed.py`: blocks of README and docs, and every command, of the installed treadload.
 
 Outside the clone, for an environment that holds the wheel and nothing of the tests: `.ci/wheel` makes it, from the
-lowest or the newest version of every requirement. Works in a folder of its own; prints a line a step and ends with the
-steps that failed.
+lowest or the newest version of every requirement. Works in a folder of its own; prints a line a step and ends with
+the steps that failed.
 """
 
 from __future__ import annotations
