@@ -91,9 +91,12 @@ def random_basins(count, seed):
     return road, moduli, basins(model.deflection(np.log(moduli)[:, None])[:, 0], thickness=given)
 
 
-@pytest.mark.parametrize("count", [60, pytest.param(1000, marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [20, pytest.param(200, marks=pytest.mark.slow)])
 def test_random_structures_without_noise(count):
-    """The bound of the question: median below 1e-4, 99 % within 1 % or named, at most 10 % named."""
+    """The bound of the question: median below 1e-4, 99 % within 1 % or named, at most 10 % named.
+
+    1000 of the same seed: a median of 2e-13, all within 1 %, none named; 53 s of processor.
+    """
     road, moduli, asked = random_basins(count, 1)
     result = backcalculate(asked, road)
     error = np.abs(result.dataset["fitted_modulus"].values / moduli - 1).max(axis=1)
@@ -103,8 +106,13 @@ def test_random_structures_without_noise(count):
     assert named.mean() <= 0.1
 
 
-@pytest.mark.parametrize("noise", [0.01, 0.02])
-@pytest.mark.parametrize("stated", [True, False])
+@pytest.mark.parametrize(
+    ("stated", "noise"),
+    [
+        (False, 0.01),
+        *(pytest.param(*at, marks=pytest.mark.slow) for at in ((False, 0.02), (True, 0.01), (True, 0.02))),
+    ],
+)
 def test_intervals_cover_what_they_say(noise, stated):
     """90 % of 600 draws: the count itself scatters by 1.2 %, so that 85 to 95 % are four of its deviations."""
     rng = np.random.default_rng(5)
@@ -252,6 +260,7 @@ def test_moduli_that_change_with_the_load_are_said():
     assert "base at 100 kN" in result.summary()
 
 
+@pytest.mark.slow
 def test_processes_and_a_state_give_the_same_and_go_on(tmp_path):
     rng = np.random.default_rng(4)
     drawn = basins(BOWL * (1 + 0.01 * rng.standard_normal((2 * PART + 20, len(OFFSETS)))))

@@ -8,8 +8,10 @@ import pytest
 import treadload as tl
 from treadload.errors import InputError
 from treadload.life.field.bench import index_of
-from treadload.life.field.likelihood import Parameters
+from treadload.life.field.fit import Model, fit
+from treadload.life.field.likelihood import Parameters, Sections, log_likelihood
 from treadload.life.field.prediction import HARDENING
+from treadload.life.field.scores import score_on
 from treadload.life.field.solution import FITTED, PLAIN, TRUSTED
 from treadload.life.field.synthetic import drawn
 from treadload.life.field.table import SectionTable
@@ -107,6 +109,25 @@ def test_other_sections_are_scored_by_ages_alone(alone):
     assert alone.score_on(LTPP) == pytest.approx(-173.04, abs=0.01)
     half = tl.life.field_bench(LTPP.at(np.arange(0, 149, 2)))
     assert half.score_on(LTPP.at(np.arange(1, 149, 2))) > -95
+
+
+@pytest.mark.parametrize("seed", [20261128, 20261129, 20261130])
+def test_an_unseen_table_is_scored_as_well_as_by_its_truth(alone, seed):
+    """Tables of roads like LTPP's that no fit has seen: at most 3 nats below the truth of ages with a lag.
+
+    The truth is that of the trial, 5.9 years, 0.72 and 3.8 years, from which the fit of LTPP is 0.8 standard errors
+    away. The plain fit of the same table loses more.
+    """
+    truth = Parameters(5.9, 0.72, 3.8)
+    sections = drawn(truth, np.zeros(len(LTPP)), LTPP.surveys, np.random.default_rng(seed))
+    table = SectionTable(
+        "unseen", LTPP.sections, LTPP.entry, LTPP.last, {"wheel-path": sections.interval}, LTPP.thickness,
+        LTPP.traffic, LTPP.mean_air, LTPP.family, LTPP.surveys,
+    )  # fmt: skip
+    by_truth = float(log_likelihood(sections, truth, "overlay-lag").sum())
+    assert alone.score_on(table) >= by_truth - 3
+    plain = fit(Sections(LTPP.interval("wheel-path"), LTPP.entry, np.zeros(len(LTPP))), Model("plain"))
+    assert alone.score_on(table) > score_on(sections, plain)
 
 
 def test_a_shift_of_a_bench(beside, alone):

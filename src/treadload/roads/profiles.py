@@ -19,6 +19,8 @@ from treadload.roads.search import Fitted, Model, Target
 _ROUNDS, _STEPS, _FAR = 7, 3, 2.0
 # Linear intervals whose ends differ in the rise by more than this part are replaced.
 _BENT = 0.15
+# Intervals narrower than this, in ln, are straight: what differs is round-off.
+_NARROW = 1e-6
 
 
 # Drops of a block: keeps the kernels near the cache.
@@ -37,7 +39,7 @@ def intervals(model: Model, target: Target, fits: Fitted, deviation: Array, reac
     count = max(1, _BLOCK * 100 // model.size)
     for start in range(0, len(fits.x), count):
         at = np.arange(start, min(start + count, len(fits.x)))
-        at = at[np.isfinite(reach[at]) & (reach[at] > 0)]
+        at = at[np.nan_to_num(wide[at]).max(axis=1) > _NARROW]
         if len(at):
             at = at[bent(model.rows(at), target.rows(at), fits.x[at], deviation[at], reach[at])]
         if len(at):
