@@ -55,7 +55,7 @@ def test_an_interrupted_solve_goes_on_to_the_same_results(tmp_path, monkeypatch)
     assert len(set(names)) == 149
     assert len(names) <= 149 + 2
     names.clear()
-    whole = tl.life.predict_sections("LTPP", kept=tmp_path / "whole.json", workers=1)
+    whole = tl.life.predict_sections(tl.life.field_tables["LTPP"], kept=tmp_path / "whole.json", workers=1)
     assert len(names) == 149
     resumed = tl.open_results(output).field_bench.dataset
     np.testing.assert_array_equal(resumed["predicted_surface"].to_numpy(), whole.surface)
