@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from treadload.app.result_rows import PageRow
+from treadload.app.answers import PageRow
 from treadload.composing import BaseResult
 from treadload.describing import title_of
 from treadload.errors import InputError

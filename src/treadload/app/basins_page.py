@@ -100,8 +100,9 @@ class BasinsPage(Page):
             self._hint.set_visibility(False)
             self._search.set_visibility(True)
             self._drops.set_visibility(True)
-            self._drops.rows = answer["drops"]
-            self._drops.selected = answer["drops"][:1]
+            drops = [dict(drop) for drop in answer["drops"]]
+            self._drops.rows = drops
+            self._drops.selected = drops[:1]
             self._drops.update()
             self._summary.clear()
             with self._summary:

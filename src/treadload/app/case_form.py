@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from typing import Any
 
 from nicegui import ui
@@ -193,7 +194,7 @@ class CaseForm(Uploads):
         return lambda name: self.again(self.form.with_added(path, self._folder, name))
 
     @property
-    def _folder(self) -> Any:
+    def _folder(self) -> Path:
         return self.session.folder
 
     def again(self, form: Form) -> None:

@@ -7,15 +7,15 @@ import functools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Final, cast
 
 from treadload.app.form_field import LIST, NUMBER, TEXT, unit_of
-from treadload.case.schema import json_schema
+from treadload.case.schema import Schema, json_schema
 from treadload.files import parse_toml, text_of
 from treadload.templates import first_case
 
 _REFERENCE = "#/$defs/"
-WAY = "required"
+WAY: Final = "required"
 _STARTS = Path(__file__).parent / "starts.toml"
 _YES = {True: "yes", False: "no"}
 _SHAPES = {NUMBER: "a number", TEXT: "another name or file", LIST: "a list", "table": "a table", "names": "by name"}
@@ -27,8 +27,8 @@ class Shape:
 
     name: str
     label: str
-    schema: Mapping[str, Any]
-    word: Any = None
+    schema: Schema
+    word: object = None
 
     @property
     def is_scalar(self) -> bool:
@@ -40,8 +40,8 @@ class Shape:
 class CaseSchema:
     """The schema of the cases that a command runs. broken: sentences on packages that it had to leave out."""
 
-    root: Mapping[str, Any]
-    first: Mapping[str, Any]
+    root: Schema
+    first: Mapping[str, object]
     broken: tuple[str, ...] = ()
 
     @classmethod
@@ -51,9 +51,10 @@ class CaseSchema:
         broken: list[str] = []
         return cls(json_schema(command, broken=broken), parse_toml(first_case(command), "case"), tuple(broken))
 
-    def at(self, path: str, table: Mapping[str, object]) -> Mapping[str, Any]:
+    def at(self, path: str, table: Mapping[str, object]) -> Schema:
         """The schema of a key; {} of one that is not known."""
-        schema, here = self.root, table
+        schema = self.root
+        here: object = table
         for key in path.split("."):
             schema = self.resolved(self.fitting(self.shapes(schema), here).schema)
             members = schema.get("prefixItems", ())
@@ -69,15 +70,15 @@ class CaseSchema:
         schema = self.resolved(self.fitting(self.shapes(self.at(path, table)), value_at(table, path)).schema)
         return ways_of(schema), schema.get(WAY, ())
 
-    def resolved(self, schema: Mapping[str, object]) -> Mapping[str, Any]:
+    def resolved(self, schema: Schema) -> Schema:
         """A schema in place of its reference."""
         if "$ref" not in schema:
             return schema
         name = str(schema["$ref"]).removeprefix(_REFERENCE)
         rest = {key: value for key, value in schema.items() if key != "$ref"}
-        return {**self.resolved(self.root["$defs"][name]), **rest}
+        return cast("Schema", {**self.resolved(self.root["$defs"][name]), **rest})
 
-    def shapes(self, schema: Mapping[str, Any]) -> list[Shape]:
+    def shapes(self, schema: Schema) -> list[Shape]:
         """The forms that a value may have, words first."""
         schema = self.resolved(schema)
         arms = schema.get("anyOf") or [arm for arm in schema.get("oneOf", ()) if set(arm) != {WAY}]
@@ -89,7 +90,7 @@ class CaseSchema:
         return [*words, *(replace(shape, label=f"{shape.label}, as a table") if shape.label in names else shape
                           for shape in shapes if shape.word is None)]  # fmt: skip
 
-    def _shapes(self, schema: Mapping[str, Any]) -> Iterator[Shape]:
+    def _shapes(self, schema: Schema) -> Iterator[Shape]:
         kinds = schema.get("type", ())
         words = schema.get("enum") or ([schema["const"]] if "const" in schema else [])
         if kinds == "boolean":
@@ -102,7 +103,7 @@ class CaseSchema:
         if kinds == "object" or "properties" in schema:
             constant = next((key for key, part in schema.get("properties", {}).items() if "const" in part), "")
             name = "table" if "properties" in schema else "names"
-            kind = schema["properties"][constant]["const"] if constant else ""
+            kind = str(schema["properties"][constant]["const"]) if constant else ""
             yield Shape(f"{constant}:{kind}" if kind else name, kind or _SHAPES[name], schema)
         elif kinds == "array":
             yield Shape(LIST, _SHAPES[LIST], schema)
@@ -135,7 +136,7 @@ class CaseSchema:
         split = [(shape, *shape.name.partition(":")) for shape in shapes]
         return [shape.name for shape, key, sign, _ in split if sign and "default" in shape.schema["properties"][key]]
 
-    def start(self, path: str, schema: Mapping[str, object], name: str = "") -> Any:
+    def start(self, path: str, schema: Schema, name: str = "") -> object:
         """What a key begins with that is added: as in the first case, or as `starts.toml` says, or by its unit.
 
         name: of its form; left out, the first.
@@ -151,7 +152,7 @@ class CaseSchema:
         shape = next((shape for shape in shapes if shape.name == name), shapes[0])
         return self._start_of(path, shape)
 
-    def _start_of(self, path: str, shape: Shape) -> Any:
+    def _start_of(self, path: str, shape: Shape) -> object:
         schema = self.resolved(shape.schema)
         if shape.word is not None:
             return shape.word
@@ -175,9 +176,9 @@ def label_of(key: str) -> str:
     return f"{words[:1].upper()}{words[1:]}"
 
 
-def value_at(table: object, path: str) -> Any:
+def value_at(table: object, path: str) -> object:
     """The value of a key in tables; None where it is not."""
-    here = table
+    here: object = table
     for part in path.split("."):
         if isinstance(here, list):
             here = here[int(part)] if part.isdigit() and int(part) < len(here) else None
@@ -190,7 +191,7 @@ def _get(table: object, key: str) -> object:
     return table.get(key) if isinstance(table, Mapping) else None
 
 
-def ways_of(schema: Mapping[str, Any]) -> list[str]:
+def ways_of(schema: Schema) -> list[str]:
     """Keys of which a table gives exactly one."""
     return [arm[WAY][0] for arm in schema.get("oneOf", ()) if set(arm) == {WAY}]
 

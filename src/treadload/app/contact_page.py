@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-from typing import Any, ClassVar
+from typing import ClassVar, Unpack
 
 from nicegui import background_tasks, ui
 
+from treadload.app.answers import Answer, View
 from treadload.app.case_form import CaseForm
 from treadload.app.case_schema import label_of
 from treadload.app.elements import heading, plain, with_attributes
@@ -34,7 +35,7 @@ class ContactPage(Page):
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
-        self._view: dict[str, Any] = {"left": "contact/pressure", "right": "response/principal_strain_1", "depth": 0}
+        self._view: View = {"left": "contact/pressure", "right": "response/principal_strain_1", "depth": 0}
         self._over: str | None = None
         self._pair: tuple[Run, Run] | None = None
         self._depths: list[float] = []
@@ -95,7 +96,7 @@ class ContactPage(Page):
         self._pair = None
         return {"view": self._seen()}
 
-    def _seen(self) -> dict[str, object]:
+    def _seen(self) -> View:
         return {**self._view, "width": self.width, "line": self._slice.line}
 
     def name_of(self, form: Form) -> str:
@@ -107,7 +108,7 @@ class ContactPage(Page):
         ]
         return ", ".join(parts).replace(" normal load", "") or super().name_of(form)
 
-    def drawn(self, run: Run, answer: dict[str, Any]) -> None:
+    def drawn(self, run: Run, answer: Answer) -> None:
         """Draw what an answer holds, and tell its verdict."""
         figures = answer.get("figures", {})
         for name in ("maps", "places"):
@@ -134,7 +135,7 @@ class ContactPage(Page):
     def _offer(self, choices: dict[str, str], depths: list[float]) -> None:
         """Fill the lists of maps without asking for what they show already."""
         for side, select in self._maps_of.items():
-            wanted = self._view[side]
+            wanted = self._view["left"] if side == "left" else self._view["right"]
             options = choices if wanted in choices else {**choices, wanted: "follows when it is solved"}
             if select.options != options:
                 select.set_options(options, value=wanted)
@@ -144,7 +145,7 @@ class ContactPage(Page):
             self._view["depth"] = min(self._view["depth"], len(depths) - 1)
             self._depth.set_options(named, value=self._view["depth"])
 
-    def _look(self, **view: object) -> None:
+    def _look(self, **view: Unpack[View]) -> None:
         if all(self._view.get(key) == value for key, value in view.items()):
             return
         self._view.update(view)

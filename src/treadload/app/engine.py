@@ -19,9 +19,9 @@ import time
 from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
 
 from treadload.app import map_figures
+from treadload.app.answers import View
 from treadload.app.basin_points import about_basins, basin_figures, basin_rows, basins_of
 from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
@@ -67,10 +67,10 @@ class Engine:
         self._stop = threading.Event()
         self._solving: threading.Thread | None = None
 
-    def answer(self, request: dict[str, Any]) -> None:
+    def answer(self, request: dict[str, object]) -> None:
         """Do what a request asks for; whatever is wrong goes back as a sentence."""
-        number, do = request.pop("id"), request.pop("do")
-        say = self._say_of(number)
+        do = str(request.pop("do"))
+        say = self._say_of(request.pop("id"))
         if do == "stop":
             self._stop.set()
             return
@@ -94,7 +94,7 @@ class Engine:
             self._stop.set()
             self._solving.join()
 
-    def _say_of(self, number: int) -> Say:
+    def _say_of(self, number: object) -> Say:
         def say(figures: dict[str, object] | None = None, **answer: object) -> None:
             # Figures are JSON already, which the browser alone reads.
             if figures:
@@ -125,7 +125,7 @@ class Engine:
 
     # Solving.
 
-    def _solve(self, say: Say, run: str, table: dict[str, Any], theme: str, view: dict[str, Any]) -> None:
+    def _solve(self, say: Say, run: str, table: dict[str, object], theme: str, view: View) -> None:
         began = time.monotonic()
         used = time.process_time()
         case = Case.from_dict(table, folder=self._folder, name="case")
@@ -279,7 +279,7 @@ class Engine:
 
     # Drawing.
 
-    def _maps(self, say: Say, run: str, theme: str, view: dict[str, Any]) -> None:
+    def _maps(self, say: Say, run: str, theme: str, view: View) -> None:
         stored = self._run_of(run)
         warnings = [text for part in stored.parts.values() for text in part.warnings]
         say(map_figures.maps(stored.parts, theme=theme, **view), rows=rows_of(stored.parts), done=True,
@@ -348,12 +348,12 @@ class Engine:
 
     # Taking home.
 
-    def _export(self, say: Say, run: str, kind: str, view: dict[str, object] | None = None) -> None:
+    def _export(self, say: Say, run: str, kind: str, view: View | None = None) -> None:
         from treadload.app.export_files import write_export
 
         stored = self._run_of(run)
 
-        def whole() -> Any:
+        def whole() -> object:
             if stored.case is None or stored.case.command == "life":
                 return open_results(self._folder / f"{run}.nc")
             load = self._loaded(stored)

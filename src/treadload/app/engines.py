@@ -11,8 +11,8 @@ import sys
 import time
 from collections.abc import AsyncIterator
 from pathlib import Path
-from typing import Any
 
+from treadload.app.answers import Answer
 from treadload.app.service import Limits
 from treadload.templates import KINDS
 
@@ -38,7 +38,7 @@ class Engine:
     def __init__(self, process: asyncio.subprocess.Process, seconds: float | None = None) -> None:
         self._process, self._seconds = process, seconds
         self._numbers = itertools.count(1)
-        self._waiting: dict[int, asyncio.Queue[dict[str, Any] | None]] = {0: asyncio.Queue()}
+        self._waiting: dict[int, asyncio.Queue[Answer | None]] = {0: asyncio.Queue()}
         # Solves that the process has not ended yet, whether anybody still waits for them or not.
         self._solving: set[int] = set()
         self._reading = asyncio.create_task(self._read())
@@ -76,12 +76,12 @@ class Engine:
         """Of the process."""
         return self._process.pid
 
-    async def ask(self, do: str, **question: object) -> AsyncIterator[dict[str, object]]:
+    async def ask(self, do: str, **question: object) -> AsyncIterator[Answer]:
         """Answers as they come; the last holds "done", "error" or "stopped".
 
         Raises EngineLost where the process ends before it, as it does by the limit of time.
         """
-        number, queue = next(self._numbers), asyncio.Queue[dict[str, Any] | None]()
+        number, queue = next(self._numbers), asyncio.Queue[Answer | None]()
         self._waiting[number] = queue
         if do in KINDS:
             self._solving.add(number)
@@ -109,9 +109,9 @@ class Engine:
         finally:
             del self._waiting[number]
 
-    async def last(self, do: str, **question: object) -> dict[str, Any]:
+    async def last(self, do: str, **question: object) -> Answer:
         """The last answer to a question."""
-        answer: dict[str, Any] = {}
+        answer: Answer = {}
         async for answer in self.ask(do, **question):  # noqa: B007
             pass
         return answer

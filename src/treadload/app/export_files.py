@@ -7,6 +7,7 @@ import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
+from treadload.app.answers import View
 from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.files import write_whole
@@ -24,7 +25,7 @@ def write_export(
     kind: str,
     folder: Path,
     run: str,
-    view: dict[str, object],
+    view: View,
 ) -> str:
     """Write a file of a run in the folder; returns its name.
 

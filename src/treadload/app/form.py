@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any, Self
+from typing import Self, cast
 
 import tomli_w
 
@@ -56,7 +56,7 @@ class Form:
     command: that runs the case.
     """
 
-    table: Mapping[str, Any]
+    table: Mapping[str, object]
     yours: frozenset[str] = frozenset()
     command: str = "run"
 
@@ -141,7 +141,7 @@ class Form:
 
     def with_row(self, path: str, folder: Path) -> Self:
         """The form with one more row of a list: at its end, or before the last where only that is a case."""
-        rows = list(value_at(self.table, path) or [])
+        rows = list(cast("Iterable[object]", value_at(self.table, path) or []))
         row = self.schema.start(f"{path}.{len(rows)}", self.schema.at(f"{path}.{len(rows)}", self.table))
         if isinstance(row, dict) and "name" in row:
             names = {row.get("name") for row in rows if isinstance(row, Mapping)}
@@ -180,7 +180,7 @@ class Form:
             tries.append(bare)
         return next((form for form in tries if form.check(folder).case is not None), self)
 
-    def value(self, path: str) -> Any:
+    def value(self, path: str) -> object:
         """The value of a key as it is given; None where it is not."""
         return value_at(self.table, path)
 
@@ -217,7 +217,9 @@ def profile_of(form: Form) -> TreadProfile | None:
         return None
 
 
-def _kept(value: Any, before: Mapping[str, Any], schema: CaseSchema, path: str, table: Any) -> Any:
+def _kept(
+    value: object, before: Mapping[str, object], schema: CaseSchema, path: str, table: Mapping[str, object]
+) -> object:
     shapes = schema.shapes(schema.at(path, table))
     if not isinstance(value, Mapping):
         # A name alone has no keys beside it; its table has.
@@ -235,7 +237,7 @@ def _kept(value: Any, before: Mapping[str, Any], schema: CaseSchema, path: str, 
     return {**value, **{key: item for key, item in kept.items() if type(item) is type(value.get(key, item))}}
 
 
-def _paths(table: Any, before: str = "") -> Iterator[str]:
+def _paths(table: Mapping[str, object] | list[object], before: str = "") -> Iterator[str]:
     members = enumerate(table) if isinstance(table, list) else table.items()
     for key, value in members:
         path = f"{before}{key}"
@@ -247,7 +249,7 @@ def _paths(table: Any, before: str = "") -> Iterator[str]:
             yield path
 
 
-def _settle(table: Any, files: Mapping[str, str] | None) -> None:
+def _settle(table: Mapping[str, object] | list[object], files: Mapping[str, str] | None) -> None:
     """Put the kept names of uploaded files in a table, and refuse whatever would lead out of their folder."""
     members = enumerate(table) if isinstance(table, list) else table.items()
     for key, value in list(members):
@@ -255,7 +257,7 @@ def _settle(table: Any, files: Mapping[str, str] | None) -> None:
             _settle(value, files)
         elif isinstance(value, str) and key not in _WORDS:
             if files is not None and value in files:
-                table[key] = files[value]
+                cast("dict[object, object]", table)[key] = files[value]
             elif _leads_out(value):
                 raise InputError(
                     f"{key} = {value!r} names a file of the machine that this page runs on, which no page may open; "

@@ -5,8 +5,8 @@ from __future__ import annotations
 import functools
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
+from treadload.case.schema import Schema
 from treadload.errors import InputError
 from treadload.units import leading_number, quantity
 
@@ -19,7 +19,7 @@ class ShownUnit:
 
     shown: str = ""
     si: str = ""
-    start: Any = 1
+    start: object = 1
 
 
 # By the kind of quantity, or else the SI unit, that the schema names.
@@ -35,7 +35,7 @@ _SHOWN = {
 _OF_KEYS = {"inflation_pressure": ("bar", "8 bar"), "poisson": ("", 0.35)}
 
 
-def unit_of(schema: Mapping[str, object], path: str, value: object) -> ShownUnit:
+def unit_of(schema: Schema, path: str, value: object) -> ShownUnit:
     """The unit of a field: the one that its value is written in, else that of its kind of quantity."""
     si = str(schema.get("x-unit", ""))
     shown, start = _SHOWN.get(str(schema.get("x-kind", si)), _SHOWN.get(si, (si, 1)))
@@ -65,7 +65,7 @@ class Field:
     si: str = ""
     kind: str = NUMBER
     choices: Mapping[str, str] | None = None
-    values: Mapping[str, Any] | None = None
+    values: Mapping[str, object] | None = None
     words: str = ""
     otherwise: str = ""
 
@@ -92,7 +92,7 @@ class Field:
     def _factor(self) -> float:
         return quantity(f"1 {self.unit}", self.si) if self.unit and self.si != "degC" else 1.0
 
-    def read(self, text: str) -> Any:
+    def read(self, text: str) -> object:
         """What a text means as a value of the case: a bare number is in the field's unit. None for nothing."""
         bare = text.strip()
         if not bare:

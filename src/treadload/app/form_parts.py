@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 from treadload.app.case_schema import WAY, CaseSchema, Shape, join, label_of, ways_of
 from treadload.app.form_field import FREE, LIST, NUMBER, TEXT, Field, unit_of
+from treadload.case.schema import Schema
 
 
 @dataclass(frozen=True)
@@ -70,7 +70,7 @@ class _Parts:
     layers: tuple[str, ...] = field(default=())
 
     def group(
-        self, path: str, label: str, schema: Mapping[str, Any], table: Any, *, can_go: bool = False,
+        self, path: str, label: str, schema: Schema, table: Mapping[str, object], *, can_go: bool = False,
         is_inline: bool = False,
     ) -> Group:  # fmt: skip
         properties, needed, ways = schema.get("properties", {}), schema.get(WAY, ()), ways_of(schema)
@@ -101,7 +101,7 @@ class _Parts:
         words = str(schema.get("description", ""))
         return Group(path, label, tuple(parts), tuple(rest), words, can_go, is_inline)
 
-    def key(self, path: str, schema: Mapping[str, Any], value: Any, *, in_table: bool, can_go: bool) -> list[Part]:
+    def key(self, path: str, schema: Schema, value: object, *, in_table: bool, can_go: bool) -> list[Part]:
         """The parts of one key."""
         schema = self.schema.resolved(schema)
         shapes = self.schema.shapes(schema)
@@ -115,7 +115,7 @@ class _Parts:
         if (
             len(shapes) == 1
             and self._is_plain_list(shapes[0])
-            and not any(isinstance(item, Mapping) for item in value or ())
+            and not any(isinstance(item, Mapping) for item in (value if isinstance(value, list | tuple) else ()))
         ):
             return [self._list(plain, shapes[0], value, usual)]
         if not in_table:
@@ -157,7 +157,7 @@ class _Parts:
             return replace(self.group(path, label, schema, value or {}, can_go=can_go), words=words)
         return Field(path, label, kind=TEXT, words=words)
 
-    def _row(self, path: str, schema: Mapping[str, object], value: object) -> Group:
+    def _row(self, path: str, schema: Schema, value: object) -> Group:
         parts = self.key(path, schema, value, in_table=True, can_go=False)
         if len(parts) == 1 and isinstance(parts[0], Group):
             (whole,) = parts

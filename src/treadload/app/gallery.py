@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from nicegui import background_tasks, ui
 
+from treadload.app.answers import Picture
 from treadload.app.elements import with_attributes
 from treadload.app.page_frame import Page
 
@@ -43,7 +42,7 @@ class Gallery:
                 put(key, answer["picture"])
 
 
-def put(key: str, picture: dict[str, Any]) -> None:
+def put(key: str, picture: Picture) -> None:
     """A picture of the process, or the sentence that says why there is none, where the page is being built."""
     if picture["url"]:
         shown = ui.element("img").classes("wide" if picture["wide"] else "")

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.answers import Answer, Picture
 from treadload.app.case_form import CaseForm
 from treadload.app.elements import heading
 from treadload.app.gallery import put
@@ -27,7 +28,7 @@ class LifePage(Page):
     def __init__(self, session: Session) -> None:
         super().__init__(session)
         self._runs = RunCards(session, self.address, self._show)
-        self._drawn: dict[str, dict[str, Any]] = {}
+        self._drawn: dict[str, Picture] = {}
         self._criterion = ""
 
     def inside(self) -> None:
@@ -58,7 +59,7 @@ class LifePage(Page):
         if ready:
             self._show(ready[-1])
 
-    def drawn(self, run: Run, answer: dict[str, Any]) -> None:
+    def drawn(self, run: Run, answer: Answer) -> None:
         """Put the figures of a part where they belong."""
         if answer.get("part") == "life":
             self._drawn, self._criterion = {}, ""

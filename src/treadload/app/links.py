@@ -20,7 +20,7 @@ import tempfile
 import time
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TypedDict
 
 from treadload.errors import InputError
 
@@ -118,19 +118,28 @@ def _those(ports: list[int]) -> str:
     return f"give --port, one of {', '.join(map(str, ports))}"
 
 
-def _servers() -> list[tuple[Links, dict[str, Any]]]:
+class About(TypedDict, total=False):
+    """What a server tells of itself in its folder."""
+
+    address: str
+    host: str
+    port: int
+    pid: int
+
+
+def _servers() -> list[tuple[Links, About]]:
     """Folders of this user's servers, running or not."""
     servers = []
     for folder in Path(tempfile.gettempdir()).glob(f"{_PREFIX}*"):
         with contextlib.suppress(OSError, ValueError, KeyError):
             if hasattr(os, "getuid") and folder.lstat().st_uid != os.getuid():
                 continue
-            about = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
+            about: About = json.loads((folder / _ABOUT).read_text(encoding="utf-8"))
             servers.append((Links(folder, str(about["address"])), about))
     return servers
 
 
-def _answers(about: dict[str, Any]) -> bool:
+def _answers(about: About) -> bool:
     host = {"0.0.0.0": "127.0.0.1", "::": "::1"}.get(str(about["host"]), str(about["host"]))
     try:
         with socket.create_connection((host, int(about["port"])), timeout=_ANSWERS):

@@ -16,6 +16,7 @@ from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.plots import interactive
 from treadload.plots.interactive import Cut, Field
+from treadload.plots.interactive.browser_grids import Grid
 from treadload.response import Response
 
 if TYPE_CHECKING:
@@ -64,7 +65,7 @@ def maps(
     depth: int = 0,
     width: float = 1100.0,
     line: Sequence[float] | None = None,
-) -> dict[str, Any]:
+) -> dict[str, Figure]:
     """Two linked maps with the line of the slice on them.
 
     left, right: of `choices_of`; one that is not there yet gives way to the plainest. depth: number of the depth.
@@ -82,7 +83,7 @@ def maps(
     return {"maps": _narrowed(figure, width)}
 
 
-def places(parts: Parts, *, theme: str) -> dict[str, Any]:
+def places(parts: Parts, *, theme: str) -> dict[str, Figure]:
     """Marks of the places that a verdict names, to be put on the two maps that are drawn already."""
     return {"places": interactive.marked(named_places(parts), 2, theme=theme)}
 
@@ -141,7 +142,7 @@ def along(
     name: str = "",
     over: BaseResult | None = None,
     with_source: bool = True,
-) -> dict[str, Any]:
+) -> dict[str, Figure | SourcedFigure]:
     """The profile along the line, and the section below it where the road is known at several depths.
 
     name: variable of the section. over: another contact, or a measured footprint, whose pressure is drawn as well.
@@ -168,11 +169,11 @@ class SourcedFigure:
     """A figure along a line, mm, and the grids that a browser holds to draw other lines."""
 
     figure: Figure
-    grids: list[dict[str, Any]]
+    grids: list[Grid]
     line: tuple[float, ...]
 
     @classmethod
-    def of(cls, figure: Figure, grids: list[dict[str, Any]], cut: Cut) -> Figure | SourcedFigure:
+    def of(cls, figure: Figure, grids: list[Grid], cut: Cut) -> Figure | SourcedFigure:
         """The figure with its grids, or the figure alone where they are too large to be sent."""
         if interactive.held_numbers(grids) > interactive.MOST_HELD:
             return figure
@@ -198,7 +199,7 @@ def difference(
     return {"maps": _narrowed(figure, 0.0)}
 
 
-def tread(parts: Parts, *, theme: str) -> dict[str, Any]:
+def tread(parts: Parts, *, theme: str) -> dict[str, Figure]:
     """The tread in space with the pressure on it."""
     if "contact" not in parts:
         raise InputError("this result has no contact, so there is no tread to draw")

@@ -5,10 +5,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.answers import Answer
 from treadload.app.case_form import CaseForm
 from treadload.app.elements import call_script, plain, text, with_attributes
 from treadload.app.engines import EngineLost
@@ -90,7 +91,7 @@ class Page:
         """What a solve is asked for, besides the run, its tables and the theme."""
         return {}
 
-    def drawn(self, run: Run, answer: dict[str, object]) -> None:
+    def drawn(self, run: Run, answer: Answer) -> None:
         """Draw a part of a run that is there."""
 
     def finished(self, run: Run) -> None:
@@ -195,7 +196,7 @@ class Page:
                 raise
             self._cancel.props("disabled")
 
-    def _hear(self, run: Run, answer: dict[str, Any]) -> None:
+    def _hear(self, run: Run, answer: Answer) -> None:
         """Show what the process says of a run. A tab that is closed has no place for it; the run is kept."""
         if self.client.is_deleted:
             run.ready = run.ready or "ready" in answer
@@ -255,7 +256,7 @@ class Page:
 
     # Asking for figures, and taking home.
 
-    async def last(self, do: str, **question: object) -> dict[str, Any]:
+    async def last(self, do: str, **question: object) -> Answer:
         """The last answer of the process; what is wrong is said on the page."""
         with self.client:
             try:

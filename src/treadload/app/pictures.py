@@ -8,6 +8,7 @@ import io
 from collections.abc import Iterator, Mapping
 from typing import Protocol, cast
 
+from treadload.app.answers import Picture
 from treadload.composing import BaseResult
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, figures_of
@@ -16,12 +17,12 @@ Parts = Mapping[str, BaseResult]
 Listed = tuple[str, RegisteredFigure, BaseResult, Drawing]
 
 
-def pictures_of(name: str, parts: Parts) -> dict[str, dict[str, object]]:
+def pictures_of(name: str, parts: Parts) -> dict[str, Picture]:
     """The figures of a part of a run by their keys. name: of the part. parts: of the run, by their names."""
     return {key: _picture(figure, part, drawing) for key, figure, part, drawing in _listed(name, parts)}
 
 
-def pictures_for(name: str, parts: Parts, criterion: str) -> dict[str, dict[str, object]]:
+def pictures_for(name: str, parts: Parts, criterion: str) -> dict[str, Picture]:
     """Those figures of a part that are drawn for one criterion, for this one."""
     return {
         key: _picture(figure, part, Drawing({**drawing.options, "criterion": criterion}, drawing.title))
@@ -35,7 +36,7 @@ def titles_of(parts: Parts) -> dict[str, str]:
     return {key: drawing.title for name in parts for key, _, _, drawing in _listed(name, parts)}
 
 
-def picture_of(key: str, parts: Parts) -> dict[str, object]:
+def picture_of(key: str, parts: Parts) -> Picture:
     """The figure of a run that has a key. Raises InputError for another key."""
     for name in parts:
         for name_of_figure, figure, part, drawing in _listed(name, parts):
@@ -57,9 +58,9 @@ def _listed(name: str, parts: Parts) -> Iterator[Listed]:
             yield f"{name}.{figure.name}{f'.{number}' if number else ''}", figure, part, drawing
 
 
-def _picture(figure: RegisteredFigure, part: BaseResult, drawing: Drawing) -> dict[str, object]:
+def _picture(figure: RegisteredFigure, part: BaseResult, drawing: Drawing) -> Picture:
     """Address and title of a picture; where it cannot be drawn, the reason in place of the address."""
-    about = {"title": drawing.title, "wide": figure.wide}
+    about: Picture = {"title": drawing.title, "wide": figure.wide}
     try:
         return {**about, "url": as_url(cast("Saved", figure.draw(part, **drawing.options)))}
     # One figure that fails, ours or another package's, does not take the others with it.

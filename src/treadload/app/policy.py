@@ -59,7 +59,7 @@ def give_nonces(loader: Any) -> None:
     """Let the scripts and style sheets of templates carry the nonce of their answer. loader: of jinja2."""
     inner = loader.get_source
 
-    def get_source(environment: object, template: str) -> tuple[Any, ...]:
+    def get_source(environment: object, template: str) -> tuple[object, ...]:
         source, *rest = inner(environment, template)
         return (_TAG.sub(rf'<\1 nonce="{{{{ request.scope["{NONCE}"] }}}}"', source), *rest)
 

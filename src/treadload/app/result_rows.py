@@ -5,8 +5,8 @@ from __future__ import annotations
 import functools
 import inspect
 from collections.abc import Iterable, Iterator, Mapping
-from typing import Any
 
+from treadload.app.answers import PageRow
 from treadload.app.case_schema import label_of
 from treadload.case.step import step_classes
 from treadload.composing import BaseResult
@@ -17,7 +17,6 @@ from treadload.steps.allowed import PassesAllowed
 from treadload.units import repetitions_in_words
 from treadload.variables import Display
 
-PageRow = dict[str, Any]
 """key, label, value with its unit, heading, about (of the heading), group, note; x, y, depth, m, where it holds."""
 
 # Shares of the damage below this are left out.
@@ -68,7 +67,7 @@ def page_rows(rows: Iterable[Row], heading: str, about: str = "") -> list[PageRo
 
 
 def _page_row(line: Row, heading: str, about: str) -> PageRow:
-    place = {} if line.place is None else {"x": line.place.x, "y": line.place.y, "depth": line.place.depth}
+    place: PageRow = {} if line.place is None else {"x": line.place.x, "y": line.place.y, "depth": line.place.depth}
     return {
         "key": f"{line.key}:{line.group}" if line.group else line.key, "label": label_of(line.label),
         "value": line.text, "heading": heading, "about": about, "group": line.group, "note": line.remark, **place,
@@ -77,7 +76,7 @@ def _page_row(line: Row, heading: str, about: str) -> PageRow:
 
 def allowed_rows(allowed: PassesAllowed) -> list[PageRow]:
     """Load repetitions by criterion, each with its place and what is evaluated there in "detail"."""
-    shown = []
+    shown: list[PageRow] = []
     for number, line in enumerate(allowed.rows):
         is_harmed = line.reading > 0
         beyond = ", extrapolated" if line.extrapolated else ""

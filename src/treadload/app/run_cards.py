@@ -8,6 +8,7 @@ from typing import Any
 
 from nicegui import ui
 
+from treadload.app.answers import PageRow
 from treadload.app.elements import plain, text
 from treadload.app.session import Run, Session
 
@@ -98,6 +99,6 @@ class RunCards:
 _FIRST = ("largest_pressure", "worst_strain", "worst_passes", "governing", "governing_years")
 
 
-def _first(rows: list[dict[str, Any]]) -> str:
+def _first(rows: list[PageRow]) -> str:
     values = {row["key"]: row["value"] for row in rows}
     return ", ".join(values[key] for key in _FIRST if key in values)

@@ -8,8 +8,7 @@ import logging
 import socket
 import sys
 import webbrowser
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Awaitable, Callable, Mapping
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
@@ -165,12 +164,15 @@ def _page(keys: Keys, sessions: Sessions, kind: type[Page], pages: list[type[Pag
 
 def _around_everything(keys: Keys) -> None:
     """The guard as the outermost layer: nicegui adds its own when it starts, and the last one added is outermost."""
-    built: Callable[[], Any] = app.build_middleware_stack
+    built = app.build_middleware_stack
 
-    def guarded() -> Any:
+    def guarded() -> Guard:
         return Guard(built(), keys)
 
     app.build_middleware_stack = guarded  # type: ignore[method-assign]
+
+
+Handler = Callable[..., object]
 
 
 def _own_events(keys: Keys) -> None:
@@ -178,15 +180,15 @@ def _own_events(keys: Keys) -> None:
     for event in ("event", "javascript_response", "ack", "log", "handshake"):
         inner = core.sio.handlers["/"][event]
 
-        def checked(sid: str, message: Any, inner: Any = inner) -> Any:
+        def checked(sid: str, message: Mapping[str, object], inner: Handler = inner) -> object:
             with contextlib.suppress(KeyError, TypeError):
                 session = core.sio.get_environ(sid)["asgi.scope"][SESSION]
                 if keys.may_use(str(message["client_id"]), session):
                     return inner(sid, message)
             return False
 
-        async def waited(sid: str, message: Any, checked: Any = checked) -> Any:
+        async def waited(sid: str, message: Mapping[str, object], checked: Handler = checked) -> object:
             answer = checked(sid, message)
-            return await answer if hasattr(answer, "__await__") else answer
+            return await answer if isinstance(answer, Awaitable) else answer
 
         core.sio.on(event, waited)

@@ -11,8 +11,8 @@ import tempfile
 from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
 
+from treadload.app.answers import Allowed, Answer, PageRow
 from treadload.app.engines import Engine, EngineLost, Engines
 from treadload.app.form import Form
 from treadload.errors import InputError
@@ -45,9 +45,9 @@ class Run:
     title: str
     form: Form | None
     page: str = "/"
-    rows: list[dict[str, Any]] = field(default_factory=list)
+    rows: list[PageRow] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
-    allowed: dict[str, Any] = field(default_factory=dict)
+    allowed: Allowed = field(default_factory=Allowed)
     unsolved: str = ""
     ready: bool = False
     thumb: str = ""
@@ -78,13 +78,13 @@ class Session:
                 self._engines[page] = engine
             return engine
 
-    async def ask(self, page: str, do: str, **question: object) -> AsyncIterator[dict[str, object]]:
+    async def ask(self, page: str, do: str, **question: object) -> AsyncIterator[Answer]:
         """Answers of the process of a page, see `Engine.ask`."""
         engine = await self.engine(page)
         async for answer in engine.ask(do, **question):
             yield answer
 
-    async def last(self, page: str, do: str, **question: object) -> dict[str, Any]:
+    async def last(self, page: str, do: str, **question: object) -> Answer:
         """The last answer of the process of a page."""
         return await (await self.engine(page)).last(do, **question)
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
 
 from nicegui import ui
 
@@ -58,7 +57,7 @@ class SlicePanel:
             if place.name in figures:
                 place.draw(figures[place.name])
 
-    def _dragged(self, ends: Any) -> None:
+    def _dragged(self, ends: Mapping[str, float]) -> None:
         """The line lies elsewhere. ends: its ends, mm, and whether the browser has drawn what lies along it."""
         with contextlib.suppress(TypeError, ValueError, KeyError):
             self.line = [float(ends[key]) / 1e3 for key in _ENDS]

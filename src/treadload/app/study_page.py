@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from nicegui import background_tasks, ui
 
+from treadload.app.answers import Answer, Dimension
 from treadload.app.elements import heading, with_attributes
 from treadload.app.figure_place import Place
 from treadload.app.gallery import Gallery
@@ -26,7 +27,7 @@ class StudyPage(Page):
     def __init__(self, session: Session) -> None:
         super().__init__(session)
         self._at: dict[str, int] = {}
-        self._about: dict[str, Any] = {}
+        self._about: Answer = {}
         self._selection = {"reading": "", "along": "", "field": ""}
         self._drawing = self._again = False
         self._moves = 0
@@ -129,7 +130,7 @@ class StudyPage(Page):
                                        on_change=lambda event, key=key: self._chosen(key, event.value))  # fmt: skip
                     with_attributes(select, data_choice=key).props("dense outlined options-dense")
 
-    def _moved(self, dim: dict[str, Any], label: Any, number: int) -> None:
+    def _moved(self, dim: Dimension, label: ui.label, number: int) -> None:
         label.text = dim["values"][min(number, len(dim["values"]) - 1)]
         self._at[dim["name"]] = min(number, len(dim["values"]) - 1)
         background_tasks.create(self._draw())

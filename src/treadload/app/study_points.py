@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
+from typing import TYPE_CHECKING
 
-from treadload.app.result_rows import PageRow
+from treadload.app.answers import PageRow
 from treadload.composing import BaseResult
 from treadload.describing import title_of
 from treadload.errors import InputError
@@ -14,6 +14,9 @@ from treadload.plots.interactive.study import placed, study_curve, study_map, st
 from treadload.plots.kit.shown import shown
 from treadload.plots.sweeps.reading import FAILED, View, beside
 from treadload.sweeps import Sweep
+
+if TYPE_CHECKING:
+    from plotly.graph_objects import Figure
 
 # Values of a slider, results and characters of a label that a browser is sent.
 _MOST_VALUES, _MOST_ROWS, _MOST_LETTERS = 2000, 40, 80
@@ -62,7 +65,9 @@ def _values(view: View, dim: str, count: int) -> list[str]:
     return texts
 
 
-def point_of(study: Sweep, at: dict[str, int], reading: str, along: str, field: str, theme: str, width: float) -> Any:
+def point_of(
+    study: Sweep, at: dict[str, int], reading: str, along: str, field: str, theme: str, width: float
+) -> dict[str, Figure]:
     """Figures at a point of a study: the curve, and the map where a field was kept."""
     figures = {"curve": study_curve(study, reading, along, at, theme=theme)}
     if field:

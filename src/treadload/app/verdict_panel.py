@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Sequence
-from typing import Any
 
 from nicegui import ui
 
+from treadload.app.answers import Allowed, PageRow
 from treadload.app.elements import heading, plain, text, with_attributes
-from treadload.app.result_rows import PageRow
 from treadload.app.session import Run
 
 _HOME = {"nc": "NetCDF", "html": "report", "csv": "tables, CSV"}
@@ -62,7 +61,7 @@ class VerdictPanel:
             if self._has_case:
                 ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
 
-    def show_allowed(self, allowed: dict[str, Any]) -> None:
+    def show_allowed(self, allowed: Allowed) -> None:
         """Show load repetitions by criterion below the numbers; they are known last."""
         self._allowed.clear()
         if not allowed:

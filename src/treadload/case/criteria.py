@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Annotated, Any
 
 from treadload.damage.criterion import Criterion as Judge
-from treadload.damage.laws.of_layer import OnLayer, law_of_layer
+from treadload.damage.laws.of_layer import Law, OnLayer, law_of_layer
 from treadload.damage.quantity import Place, Quantity, Reading
 from treadload.errors import InputError, nearest
 from treadload.pavement import Pavement
@@ -69,15 +69,17 @@ class CriterionTable(TargetTable):
         reads = (getattr(kind, "reads", None) for kind in made_by(type(self).target))
         return next((quantity for quantity in reads if isinstance(quantity, Quantity)), None)
 
-    def _law(self, at: OnLayer) -> Any:
+    def _law(self, at: OnLayer) -> Judge | Law:
         target = type(self).target
         arguments = {name: value for name, value in self.arguments().items() if value is not None}
         taken = parameters(target)
         layer = [name for name, (hint, _) in taken.items() if hint is OnLayer]
         if layer:
-            return guarded(self.entry, target, **{layer[0]: at}, **arguments)
+            law: Judge | Law = guarded(self.entry, target, **{layer[0]: at}, **arguments)
+            return law
         needed = tuple(name for name, (_, default) in taken.items() if default is ...)
-        return guarded(self.entry, law_of_layer, target, at, arguments, needed)
+        law = guarded(self.entry, law_of_layer, target, at, arguments, needed)
+        return law
 
 
 CRITERION = Choice(

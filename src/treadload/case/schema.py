@@ -6,7 +6,7 @@ import contextlib
 import itertools
 import os
 from collections.abc import Iterator, Sequence
-from typing import Any
+from typing import Any, TypedDict, cast
 
 from treadload import catalogue
 from treadload.case.fitted import FROM, OVERLAY
@@ -28,6 +28,34 @@ _CATALOGUED = (
 )
 _DIALECT = "https://json-schema.org/draft/2020-12/schema"
 _DEFINED = "#/$defs/"
+
+
+_Marks = TypedDict(
+    "_Marks",
+    {"$schema": str, "$ref": str, "$defs": dict[str, "Schema"], "x-unit": str, "x-kind": str},
+    total=False,
+)
+
+
+class Schema(_Marks, total=False):
+    """A JSON schema, as far as those of cases go. x-unit, x-kind: see `json_schema`."""
+
+    title: str
+    description: str
+    type: str
+    const: object
+    enum: list[object]
+    examples: list[str]
+    default: object
+    pattern: str
+    properties: dict[str, Schema]
+    additionalProperties: Schema
+    required: list[str]
+    items: Schema
+    prefixItems: list[Schema]
+    minItems: int
+    anyOf: list[Schema]
+    oneOf: list[Schema]
 
 
 def keys_of_kind(name: str, broken: list[str] | None = None) -> tuple[tuple[str, ...], tuple[str, ...]]:
@@ -57,10 +85,10 @@ def hidden_of_kind(name: str) -> set[str]:
     return set.intersection(*(set(kind.hidden) for kind in kinds))
 
 
-def _prune(root: dict[str, Any]) -> None:
+def _prune(root: Schema) -> None:
     """Leave out definitions that nothing refers to."""
     defined = root.get("$defs", {})
-    kept: dict[str, Any] = {}
+    kept: dict[str, Schema] = {}
     while True:
         names = {ref.removeprefix(REFERENCE) for ref in _references([root["properties"], kept])}
         new = names.intersection(defined) - set(kept)
@@ -75,7 +103,7 @@ def read_case(path: str | os.PathLike[str], *, changes: Sequence[str] = ()) -> C
     return Case.from_toml(path, changes=changes)
 
 
-def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[str, object]:
+def json_schema(name: str = "run", *, broken: list[str] | None = None) -> Schema:
     """JSON schema (draft 2020-12) of a case, with what other packages bring.
 
     name: "run", "life" or "calibrate", the command that runs the case. Every key has its words and unit ("x-unit",
@@ -93,7 +121,7 @@ def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[s
         table, _, key = path.rpartition(".")
         part = next(iter(_references(root["properties"][table]))).removeprefix(REFERENCE)
         root["$defs"][part]["properties"].pop(key)
-    _prune(root)
+    _prune(cast("Schema", root))
     defined: dict[str, Any] = {}
     _gather(root, defined)
     for wanted in _wanted(root, defined):
@@ -109,7 +137,7 @@ def json_schema(name: str = "run", *, broken: list[str] | None = None) -> dict[s
         _with_fitted(defined["PavementPart"])
     first = (Case.__doc__ or "").strip().splitlines()[0]
     whole = {**root, "title": f"A case of `treadload {name}`", "description": first, "$defs": defined}
-    return {"$schema": _DIALECT, **_plain(whole)}
+    return cast("Schema", {"$schema": _DIALECT, **cast("dict[str, object]", _plain(whole))})
 
 
 def _with_fitted(road: dict[str, object]) -> None:
@@ -195,7 +223,7 @@ def _references(schema: object) -> Iterator[str]:
             yield from _references(item)
 
 
-def _plain(schema: object, *, keys: bool = False) -> Any:
+def _plain(schema: object, *, keys: bool = False) -> object:
     """Without what says nothing: names that repeat the key, and null, which TOML does not have.
 
     keys: True where the schema is a table of keys, whose names are the user's.
@@ -206,7 +234,7 @@ def _plain(schema: object, *, keys: bool = False) -> Any:
         return schema.replace(REFERENCE, _DEFINED) if isinstance(schema, str) else schema
     if keys:
         return {key: _plain(part) for key, part in schema.items()}
-    kept = {key: _plain(part, keys=key in ("properties", "$defs")) for key, part in schema.items()}
+    kept: dict[str, Any] = {key: _plain(part, keys=key in ("properties", "$defs")) for key, part in schema.items()}
     if "$defs" not in kept:
         kept.pop("title", None)
     if kept.get("default", ...) is None or isinstance(kept.get("default"), dict):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, TypedDict, Unpack
 
 import typer
 
@@ -63,6 +63,15 @@ def calibrate(
         ) from None
 
 
+class RunKeys(TypedDict, total=False):
+    """Keywords of `treadload.run`, which explains them."""
+
+    leave_out: tuple[str, ...]
+    workers: int | None
+    jobs: int
+    state: Path | None
+
+
 def _answer(
     file: Path,
     output: Path | None,
@@ -72,7 +81,7 @@ def _answer(
     command: str = "",
     progress: Stage | None = None,
     count: Count | None = None,
-    **options: Any,
+    **options: Unpack[RunKeys],
 ) -> None:
     """Read a case; print its plan, or solve it, print its summary and write its result.
 

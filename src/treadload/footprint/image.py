@@ -6,7 +6,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal, cast
 
 import numpy as np
 
@@ -123,7 +123,14 @@ def _pixels(path: Path) -> Array:
     return mixed
 
 
-def _scale(path: Path, pixels: Array, colours: Any, scale: Any, bar: Box | None, steps: bool) -> Scale:
+def _scale(
+    path: Path,
+    pixels: Array,
+    colours: str | Sequence[tuple[Colour, float | str]] | None,
+    scale: tuple[float | str, float | str] | None,
+    bar: Box | None,
+    steps: bool,
+) -> Scale:
     if (colours is None) == (bar is None):
         raise InputError(
             f'{path} needs either colours=, the name of a colour map or pairs such as ("#0000ff", "100 kPa"), or '
@@ -170,11 +177,12 @@ def _pressure(value: object) -> float:
     return quantity(value, "Pa")
 
 
-def _colour(colour: Any) -> tuple[int, int, int]:
+def _colour(colour: object) -> tuple[int, int, int]:
     if isinstance(colour, str) and _HEX.fullmatch(colour):
         return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
-    if not isinstance(colour, str) and len(colour) == 3 and all(0 <= part <= 255 for part in colour):
-        return int(colour[0]), int(colour[1]), int(colour[2])
+    parts = cast("Sequence[int]", colour)
+    if not isinstance(colour, str) and len(parts) == 3 and all(0 <= part <= 255 for part in parts):
+        return int(parts[0]), int(parts[1]), int(parts[2])
     raise InputError(f'a colour is "#rrggbb" or (red, green, blue) of 0 to 255, got {colour!r}')
 
 

@@ -7,7 +7,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import datetime, timedelta
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -214,7 +213,7 @@ def _lines(path: Path) -> list[list[str]]:
     return [line.split(",") for line in text.splitlines() if line.strip()]
 
 
-def _weather_of(path: Path, start: datetime, step: float, columns: Mapping[str, Any]) -> Weather:
+def _weather_of(path: Path, start: datetime, step: float, columns: Mapping[str, Array]) -> Weather:
     try:
         return Weather(start, step, **columns, source=path.name)
     except InputError as error:

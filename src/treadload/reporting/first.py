@@ -6,7 +6,6 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import xarray as xr
@@ -148,7 +147,7 @@ def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...]
     return (name, short_source(quantity.source), read, where, way, quantity.calibrated), opens
 
 
-def _is_tensile(data: xr.Dataset, at: tuple[Any, ...]) -> bool:
+def _is_tensile(data: xr.Dataset, at: tuple[int, ...]) -> bool:
     return bool(in_tension(data)[at])
 
 

@@ -11,7 +11,6 @@ several make a group. Every function returns a tuple of loads, so that they nest
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import xarray as xr
 
@@ -56,11 +55,11 @@ def _middle(load: PlacedLoad) -> float:
     return sum(load.extent_y) / 2 if isinstance(load, GridLoad) else load.y
 
 
-def _each(load: object) -> Sequence[object]:
+def _each(load: Load | Sequence[Load]) -> Sequence[Load]:
     return load if isinstance(load, Sequence) else [load]
 
 
-def _leans(load: Any) -> bool:
+def _leans(load: Load) -> bool:
     """Whether a load is one of a wheel that rolls with spin, or carries a side force."""
     data = load if isinstance(load, xr.Dataset) else getattr(load, "dataset", None)
     if data is not None and "spin" in data and float(data["spin"]) != 0:

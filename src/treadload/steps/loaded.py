@@ -27,6 +27,14 @@ from treadload.tire import Tire
 Progress = Callable[[str], None]
 
 
+class CellKeys(TypedDict, total=False):
+    """On which cells the contact of a case is solved, and of which tire, see `contact_of`."""
+
+    spacing: float | None
+    tire: Tire | None
+    offset: tuple[float, float]
+
+
 class Points(TypedDict, total=False):
     """Where a response is read, see `solve_response`."""
 

@@ -8,13 +8,13 @@ import json
 import os
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any
+from typing import TypedDict, cast
 
 from treadload._version import __version__
 from treadload.case import Case
 from treadload.errors import InputError
 from treadload.files import write_whole
-from treadload.sweeps.design import Design
+from treadload.sweeps.design import Design, DesignTable
 from treadload.sweeps.manifest import read_mark, sealed, unsealed
 from treadload.sweeps.work import Question
 
@@ -78,7 +78,16 @@ def is_whole(path: Path) -> bool:
     return True
 
 
-def read_description(path: Path) -> dict[str, Any]:
+class StudyTable(TypedDict):
+    """What of the description of a study is read from its file."""
+
+    treadload_study: int
+    case: str
+    folder: str
+    design: DesignTable
+
+
+def read_description(path: Path) -> StudyTable:
     """The description of a study. Raises InputError where there is none, or a damaged one."""
     try:
         text = (path / STUDY).read_bytes()
@@ -88,7 +97,7 @@ def read_description(path: Path) -> dict[str, Any]:
             "*.zarr that it made"
         ) from error
     try:
-        study: dict[str, Any] = unsealed(text)
+        study = cast("StudyTable", unsealed(text))
         if study.get("treadload_study") != 1:
             raise ValueError("it is another kind of file")
     except ValueError as error:

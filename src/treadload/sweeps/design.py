@@ -6,7 +6,7 @@ import contextlib
 import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 import xarray as xr
@@ -50,6 +50,24 @@ class Input:
     def is_number(self) -> bool:
         """True if all values are numbers."""
         return self.labels.dtype.kind == "f"
+
+
+class InputTable(TypedDict):
+    """An input as JSON holds it."""
+
+    name: str
+    key: str
+    dims: list[str]
+    values: list[object]
+
+
+class DesignTable(TypedDict, total=False):
+    """A design as JSON holds it."""
+
+    sizes: dict[str, int]
+    inputs: list[InputTable]
+    labels: dict[str, list[str | int]]
+    faults: list[tuple[int, str]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,7 +156,7 @@ class Design:
         }
 
     @classmethod
-    def from_json(cls, document: Mapping[str, Any], case: Case) -> Design:
+    def from_json(cls, document: DesignTable, case: Case) -> Design:
         """The design that `to_json` wrote, of the same case. Raises InputError."""
         try:
             sizes = {str(dim): int(size) for dim, size in document["sizes"].items()}

@@ -5,12 +5,24 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from sys import intern
-from typing import Any
+from typing import Any, TypedDict
 
 import numpy as np
 
 Values = tuple[tuple[str, ...], Any]
 """Dimensions of an array, and the array."""
+
+
+class RecordTable(TypedDict, total=False):
+    """A record as JSON holds it."""
+
+    number: int
+    seconds: float
+    numbers: dict[str, object]
+    coordinates: dict[str, list[float | str]]
+    warnings: list[str]
+    failure: str
+    fields: list[str]
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +60,7 @@ class Record:
         }
 
     @classmethod
-    def from_json(cls, document: Mapping[str, Any]) -> Record:
+    def from_json(cls, document: RecordTable) -> Record:
         """The record without its fields. Raises KeyError, TypeError and ValueError for anything else."""
         return cls(
             int(document["number"]),

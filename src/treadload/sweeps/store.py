@@ -20,7 +20,7 @@ import zlib
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import xarray as xr
 
@@ -49,7 +49,7 @@ from treadload.sweeps.manifest import (
     manifest,
     read_mark,
 )
-from treadload.sweeps.record import Record
+from treadload.sweeps.record import Record, RecordTable
 from treadload.sweeps.work import Question
 
 SUFFIX = ".zarr"
@@ -138,7 +138,7 @@ class Store:
         self._kept.end += len(line)
         self._kept.crc = zlib.crc32(line, self._kept.crc)
         # Fields wait on disk, not in memory.
-        self.records[record.number] = Record.from_json(stored)
+        self.records[record.number] = Record.from_json(cast("RecordTable", stored))
         self._dirty = True
         if time.monotonic() - self._written > max(_OFTEN, self._cost / _SHARE):
             self.write_numbers()

@@ -9,7 +9,7 @@ from collections import OrderedDict, deque
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, Unpack
 
 from treadload.case import Case
 from treadload.case.keys import with_values
@@ -19,7 +19,7 @@ from treadload.life.contacts import Contacts
 from treadload.life.seasons import warmed
 from treadload.pavement import Pavement
 from treadload.steps.design import spacing_of
-from treadload.steps.loaded import Progress, contact_of
+from treadload.steps.loaded import CellKeys, Progress, contact_of
 from treadload.sweeps.parts import Parts
 from treadload.sweeps.record import Record
 from treadload.sweeps.selection import Selector, read
@@ -95,7 +95,13 @@ class Worker:
         return self._touch(case, None, _quiet, start=start)
 
     def _touch(
-        self, case: Case, road: Pavement | None, tell: Progress, *, start: Contact | None = None, **cells: Any
+        self,
+        case: Case,
+        road: Pavement | None,
+        tell: Progress,
+        *,
+        start: Contact | None = None,
+        **cells: Unpack[CellKeys],
     ) -> Contact:
         """What `contact_of` gives on `cells`, solved once for all cases that differ behind it.
 
@@ -111,7 +117,8 @@ class Worker:
         if on not in solved:
             try:
                 road = case.road() if road is None else road
-                solved[on] = contact_of(case, road, tell, start=start, **{"tire": self._tire(case), **cells})
+                cells.setdefault("tire", self._tire(case))
+                solved[on] = contact_of(case, road, tell, start=start, **cells)
             except TreadloadError as error:
                 solved[on] = error
         earlier = solved[on]

@@ -367,7 +367,7 @@ def _gathered(
     return matrices.reshape(*waves, count * depths, 6 * layers)
 
 
-def _signs(odd_y: BoolArray, depths: int, grid: Grid, kind: type[np.floating[Any]]) -> tuple[Array, Array]:
+def _signs(odd_y: BoolArray, depths: int, grid: Grid, kind: type[np.floating]) -> tuple[Array, Array]:
     return (
         np.repeat(np.where(odd_y, -1, 1), depths).astype(kind),
         np.repeat(np.where(_ODD_Y, -1, 1), len(grid.depths)).astype(kind),

@@ -19,7 +19,6 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
 
@@ -64,7 +63,7 @@ class Accuracy:
     smallest: float
     least_points: int
     usual_points: int
-    precision: type[np.floating[Any]] = np.float64
+    precision: type[np.floating] = np.float64
     blur: float = 0.0
     phase: float = 24.0
 
@@ -247,10 +246,10 @@ class _Transform:
     """
 
     parts: list[tuple[Cells, list[float], Array, Array, IntArray]]
-    precision: type[np.floating[Any]]
+    precision: type[np.floating]
 
     @classmethod
-    def of(cls, loads: Sequence[Cells], ky: Array, precision: type[np.floating[Any]]) -> _Transform:
+    def of(cls, loads: Sequence[Cells], ky: Array, precision: type[np.floating]) -> _Transform:
         """With the way into ky, in a precision."""
         together: list[tuple[Cells, list[float]]] = []
         for cells in loads:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any
+from typing import TypedDict
 
 import numpy as np
 import xarray as xr
@@ -18,9 +18,18 @@ from treadload.plots.response import VARIABLE
 MOST_HELD = 2_000_000
 """Numbers that a browser is sent to hold of one figure, 8 MB; with more, each line is drawn where it was solved."""
 
-Grid = dict[str, Any]
-"""x, y: centres, mm. fields: (ny, nx) each, as base64 of little-endian single floats, in the unit of the figure.
-smooth: read between the centres, or of the cell. step: of points on an oblique line, mm."""
+
+class Grid(TypedDict):
+    """x, y: centres, mm. fields: (ny, nx) each, as base64 of little-endian single floats, in the unit of the figure.
+
+    smooth: read between the centres, or of the cell. step: of points on an oblique line, mm.
+    """
+
+    x: list[float]
+    y: list[float]
+    fields: list[str]
+    smooth: bool
+    step: float
 
 
 def profile_held(source: Source, overlaid: Mapping[str, Source] | None = None) -> list[Grid]:

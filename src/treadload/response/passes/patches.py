@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
 
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.response.loads import GridLoad
+from treadload.response.loads import GridLoad, UniformDisc
 
 # Of the load stands on patches that are narrower: a rib in the middle counts, the thin ends of an ellipse do not.
 _SHARE = 0.25
 
 
-def patch_width(loads: Sequence[Any]) -> float:
+def patch_width(loads: Sequence[GridLoad | UniformDisc]) -> float:
     """Width of the loaded patches across travel, m: a quarter of the load stands on narrower ones.
 
     loads: as cells, see `passes.problem`. In every line across travel a patch is a row of neighbouring cells with

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Unpack
 
 import numpy as np
 import xarray as xr
@@ -22,6 +22,7 @@ from treadload.tire.fringes.patterns import Evaluation, Pattern, check, full_lev
 from treadload.tire.fringes.quality import FringeQuality
 from treadload.tire.fringes.steps import Steps, solve_steps, wrapped
 from treadload.tire.fringes.unwrapping import Unwrapped, unwrap_by_periods, unwrap_over_picture
+from treadload.tire.keywords import BodyKeys
 from treadload.tire.tire import Tire
 from treadload.variables import dataset
 
@@ -44,7 +45,7 @@ class FringeScan(Described):
     pixels: xr.Dataset
     quality: FringeQuality
 
-    def tire(self, **about: Any) -> Tire:
+    def tire(self, **about: Unpack[BodyKeys]) -> Tire:
         """The tire of this height map. about: as `Tire.from_height_map` takes it, material or inflation_pressure."""
         return Tire.from_height_map(self.dataset["initial_gap"], **about)
 
