@@ -177,6 +177,11 @@ def _check_layers(structure: Pavement, names: tuple[str, ...], memory: bool) -> 
             continue
         if memory and has_memory(layer):
             continue
+        if layer.depends_on_stress:
+            raise InputError(
+                f"layer {name!r} is {material}, and a basin is fitted with one modulus a layer; give an Elastic, fit "
+                "the drops of each load by themselves, and compare with the law by tl.response.settle"
+            )
         raise InputError(
             f"layer {name!r} is {material}: a static basin takes isotropic elastic layers and mixes with a modulus "
             "over temperature; give an Elastic with its Poisson's ratio"
