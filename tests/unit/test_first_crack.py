@@ -5,6 +5,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from treadload.app.pictures import pictures_for, pictures_of
 from treadload.case import Case
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.cycles import harm_of, harm_of_each
@@ -12,7 +13,9 @@ from treadload.damage.laws.fatigue import FatigueLine
 from treadload.life.first_crack import rolling_freely
 from treadload.life.seasons import warmed
 from treadload.life.solve import solve_life, solve_sum
+from treadload.reporting.life import life_report
 from treadload.response.several import Question, tensors_of_many
+from treadload.results import to_tree
 from treadload.steps.design import design_of
 
 CASE = """
@@ -147,3 +150,35 @@ def test_rolling_freely_keeps_the_turn_and_the_side_force():
     free = rolling_freely(turning)
     assert (free.tractive, free.lateral, free.spin) == (0.0, 0.3, 0.02)
     assert rolling_freely(Maneuver.braking()) == STRAIGHT
+
+
+def test_the_figure_shows_both_directions_and_what_opens_the_crack():
+    _, life = solved(STIFF, BRAKING)
+    figure = life.plot.first_crack()
+    plan, bars = figure.axes
+    texts = [text.get_text() for text in plan.texts]
+    counts, places = (of_surface(life, f"crack_{name}") for name in ("repetitions", "place"))
+    first = ("transverse", "longitudinal")[int(np.argmin(counts))]
+    assert plan.get_title(loc="left") == f"First crack: {first}"
+    for name, place in zip(("transverse", "longitudinal"), places, strict=True):
+        assert any(text.startswith(f"{name}: after") and f"y = {1e3 * place:z.0f} mm" in text for text in texts)
+    widths = [bar.get_width() for bar in bars.patches]
+    assert widths == pytest.approx(100 * of_surface(life, "cause_share"))
+    # Of a criterion without a crack from the surface the first that has one is drawn.
+    assert life.plot.first_crack(criterion="soil").axes[0].get_title(loc="left") == f"First crack: {first}"
+
+
+def test_the_report_of_a_life_states_and_draws_the_first_crack():
+    _, life = solved(STIFF, BRAKING)
+    report = life_report("case", to_tree([life], title="case")["life"].to_dataset())
+    (words,) = [text for text in report.groups if text.startswith("First crack from the surface by surface")]
+    assert "transverse first, under axle" in words
+    assert "braking or driving" in words
+    assert any(picture.title == "First crack from the surface" for picture in report.pictures)
+    # The table of all criteria is there although those of the surface have more rows.
+    assert report.first is not None
+    assert {line[0] for line in report.first.rows} == {"surface", "soil"}
+    # The page draws the registered figures, for the criterion that is chosen too.
+    page = pictures_of("life", {"life": life})["life.first_crack"]
+    assert page["url"]
+    assert pictures_for("life", {"life": life}, "soil")["life.first_crack"]["url"]

@@ -21,6 +21,7 @@ from treadload.plots.field import (
     field_years_range,
 )
 from treadload.plots.first import first_places
+from treadload.plots.first_crack import first_crack
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.fringes import fringe_scan
 from treadload.plots.growth import crack_depth, crack_intensity
@@ -92,6 +93,7 @@ __all__ = [
     "field_survivors",
     "field_transform",
     "field_years_range",
+    "first_crack",
     "first_places",
     "fitted_basins",
     "fringe_scan",

@@ -47,11 +47,11 @@ def first_of_life(data: xr.Dataset, rows: Sequence[Row] = ()) -> FirstPage | Non
     """The page of a life; None for files without its rows. data: the group /life. rows: of the life, else its own."""
     rows = rows or from_json(data.attrs.get("rows"))
     criteria = [str(name) for name in data["criterion"].to_numpy()]
-    by_criterion = {name: [row for row in rows if row.group == name] for name in criteria}
-    if (
-        len({tuple(row.key for row in members) for members in by_criterion.values()}) != 1
-        or not by_criterion[criteria[0]]
-    ):
+    keys = [{row.key for row in rows if row.group == name} for name in criteria]
+    # Criteria of the surface have rows that those at depth lack: years by other lines.
+    common = set.intersection(*keys)
+    by_criterion = {name: [row for row in rows if row.group == name and row.key in common] for name in criteria}
+    if len({tuple(row.key for row in members) for members in by_criterion.values()}) != 1 or not common:
         return None
     proposed, places = (_texts(data, name, len(criteria)) for name in ("proposed", "places"))
     is_ranked = "design_utilisation" in data

@@ -26,8 +26,8 @@ class LifeReport:
     """What a report says of one life.
 
     label: of the case. facts: (term, value). laws: name of a criterion, law, source, doubt, what the end of life is.
-    groups: sentences on groups of axles. solved: what was solved for it. first: the criteria, where it would crack
-    first, by whom; None for files without it. works: rows of `WORKS`.
+    groups: sentences on first cracks and on groups of axles. solved: what was solved for it. first: the criteria,
+    where it would crack first, by whom; None for files without it. works: rows of `WORKS`.
     """
 
     label: str
@@ -51,11 +51,16 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         _facts(data, shown),
         tuple(pictures_of("Life", [data], {})),
         tuple(zip(names, laws, sources, doubts, ends, strict=True)),
-        tuple(json.loads(data.attrs.get("groups", "[]"))),
+        (*_first_cracks(shown), *json.loads(data.attrs.get("groups", "[]"))),
         _solved(data),
         first_of_life(data, shown),
         _works(data),
     )
+
+
+def _first_cracks(rows: Sequence[Row]) -> list[str]:
+    """Sentences on the first crack from the surface: its direction, its load and season, and what opens it."""
+    return [f"First crack from the surface by {row.text}" for row in rows if row.key == "first_crack_cause"]
 
 
 def _works(data: xr.Dataset) -> tuple[tuple[str, ...], ...]:
