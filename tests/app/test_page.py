@@ -93,7 +93,9 @@ def test_a_changed_load_gives_what_python_gives(visit):
         assert row.text in summary, row.key
     assert f"{float(contact.dataset.pressure.max()) / 1e3:.0f} kPa" == told["largest_pressure"]
     if float(verdict.dataset["worst_strain"]) > 0:
-        assert told["worst_passes"] == f"{float(verdict.dataset['worst_passes']):.3g}"
+        # Beyond 10¹⁰ repetitions two digits are shown.
+        shown = float(told["worst_passes"].split()[0])
+        assert shown == pytest.approx(float(verdict.dataset["worst_passes"]), rel=0.05)
     else:
         assert "predicts no cracking" in told["verdict"]
     assert visit.page.locator('[data-path="rolling.normal_load"]').count() == 1
