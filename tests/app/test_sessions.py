@@ -48,7 +48,7 @@ def started(monkeypatch):
     """Processes that were started; they are no real ones."""
     made = []
 
-    async def start():
+    async def start(limits=None):
         await asyncio.sleep(0)
         process = Process()
         made.append(process)
