@@ -516,7 +516,7 @@ def test_the_page_on_laws_of_ones_own_does_what_it_says(tmp_path, monkeypatch):
     assert str(case.build_rolling().law) == "1.2, yielding at 2000 kPa"
     with pytest.raises(InputError, match=r"rolling\.friction: unloaded must be > 0, got 0; a dry road is near 0\.7"):
         Case.from_text(text.replace("[rolling]\n", rolling.replace("1.2", "0")))
-    groups = set(re.findall(r"^\| .* \| `(treadload\.[a-z]+)` \|", page, re.MULTILINE))
+    groups = set(re.findall(r"^\| .* \| `(treadload\.[a-z_]+)` \|", page, re.MULTILINE))
     assert groups == {registry.group for registry in (*ALL, COMPARISONS)}
     monkeypatch.setattr(FRICTION, "_built_in", dict(FRICTION._built_in))
     # A class of a notebook stands in the same module as before, under a new name here.

@@ -99,7 +99,7 @@ class Network(BaseResult, group="network"):
             low, middle, high = np.quantile(remaining, [0.25, 0.5, 0.75], method="nearest")
             note = f"a quarter of the sections: {remaining_in_words(low)} or less, a quarter: "
             note += f"{remaining_in_words(high)} or more"
-            rows.append(row("remaining_years", middle, label="remaining life, median", note=note))
+            rows.append(row("remaining_years", middle, label="remaining life (median)", note=note))
             rows.append(row("remaining_bands", "; ".join(f"{count} {band}" for band, count in bands(remaining))))
             governing = Counter(map(str, data["governing_criterion"].to_numpy()[good]))
             rows.append(row("governing", "; ".join(f"{name} ({count})" for name, count in governing.most_common())))
