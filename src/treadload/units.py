@@ -75,7 +75,7 @@ _USUAL = (
 _FACTORS = {
     "m": {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "km": 1e3},
     "m^2": {"m^2": 1.0, "cm^2": 1e-4, "mm^2": 1e-6},
-    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5},
+    "Pa": {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6, "GPa": 1e9, "bar": 1e5, "psi": PSI},
     "Pa/m": {"MPa/m": 1e6, "GPa/m": 1e9},
     "N": {"N": 1.0, "kN": 1e3},
     "N m": {"N m": 1.0},

@@ -121,7 +121,7 @@ class Network(BaseResult, group="network"):
             if data.attrs["has_ages"]:
                 age = float(at["section_age"])
                 note += f", {years_in_words(float(at['governing_years']))} from the opening, aged {age:.3g}"
-            label = f"{rank}. {at['section'].item()}"
+            label = f"remaining life ({rank}. {at['section'].item()})"
             yield row("remaining_years", float(at["remaining_years"]), label=label, note=note)
 
 
