@@ -880,7 +880,7 @@ _DISPLAYS_STUDIES = {
     "remaining_years": Display("remaining life", "", remaining_in_words),
     "remaining_bands": Display("sections by remaining life"),
     "section_age": Display("age", "", years_in_words),
-    "section_status": Display("sections"),
+    "section_status": Display("sections of the network"),
     "failed": Display("failed"),
     "flagged": Display("flagged"),
     "refused": Display("refused"),
