@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import functools
-import io
 import json
 import math
 import random
@@ -56,11 +55,9 @@ def attack(rng: random.Random, folder: Path) -> str:
 
 
 @functools.cache
-def _blank() -> bytes:
+def _blank() -> Image.Image:
     """A picture of one point, in place of a figure that takes a second."""
-    stream = io.BytesIO()
-    Image.new("RGB", (1, 1)).save(stream, "png")
-    return stream.getvalue()
+    return Image.new("RGB", (1, 1))
 
 
 def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
@@ -71,7 +68,7 @@ def _report(rng: random.Random, tree: xr.DataTree, folder: Path) -> None:
             stack.enter_context(mock.patch.object(treadload.reporting.pictures, "picture", nothing))
         elif rng.randrange(DRAWN // FIGURES):
             blank = mock.Mock(return_value=_blank())
-            stack.enter_context(mock.patch.object(treadload.reporting.pictures, "png", blank))
+            stack.enter_context(mock.patch.object(treadload.reporting.pictures, "raster", blank))
         write_report({"broken": tree}, path)
     page = path.read_text(encoding="utf-8")
     if "</html>" not in page:
