@@ -5,6 +5,27 @@ from treadload.case import Case
 from treadload.steps import run
 
 
+@pytest.hookimpl(trylast=True)
+def pytest_configure(config):
+    """Failures are printed when they happen: a run that is ended by its time limit has said which they were."""
+    terminal = config.pluginmanager.get_plugin("terminalreporter")
+    if terminal is not None:
+        config.pluginmanager.register(FailuresAtOnce(terminal))
+
+
+class FailuresAtOnce:
+    """Prints the name and the last lines of each failure as soon as it is known."""
+
+    def __init__(self, terminal):
+        self.terminal = terminal
+
+    def pytest_runtest_logreport(self, report):
+        if report.failed:
+            self.terminal.write_line(f"\n{report.nodeid} failed in {report.when} after {report.duration:.0f} s:")
+            for line in report.longreprtext.splitlines()[-12:]:
+                self.terminal.write_line(f"    {line[:300]}")
+
+
 @pytest.fixture(scope="session")
 def coarse_result():
     """Result of the coarse case: driving, 12 mm cells."""

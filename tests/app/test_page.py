@@ -116,7 +116,7 @@ def test_passes_by_criterion_are_what_python_gives(visit):
     detail = page.locator('[data-detail="allowed:1"]').inner_text()
     assert detail.startswith(f"soil, top, 260 mm deep: {soil.reading * 1e6:.0f} microstrain")
     assert page.locator("#allowed .note").first.inner_text() == allowed.without[0]
-    assert page.locator("#allowed a").get_attribute("href") == "/life"
+    assert page.locator("#allowed a").get_attribute("href") == "./life"
 
 
 def test_a_wrong_value_is_told_at_its_field(visit):
