@@ -46,7 +46,7 @@ PLATE = UniformDisc(4.55 * INCH, 100 * PSI)
 
 
 def gt_pave(**base):
-    """The road of that run. The bilinear law of its soil, (5900, 2.5, 11640), is read as the settlement asks."""
+    """The road of that run. The bilinear law of its soil, (5900, 2.5, 11640), is read so that the settlement fits."""
     uzan = Uzan(7446.494 * PSI, 0.417, 0.122, PSI)
     granular = StressDependent(uzan, 0.08, 0.6, 0.0804 * PSI / INCH, **base)
     soil = StressDependent(
@@ -152,6 +152,7 @@ def test_halved_sublayers_hardly_move_the_deflection():
 
 
 def test_the_uzan_base_of_gt_pave():
+    """Tension and the reading of the soil are fitted to this run: these are the numbers that remain."""
     state = settle(PLATE, gt_pave())
     base = [k for k, number in enumerate(state.sublayers.parts) if state.sublayers.owner[number] == 1]
     below_top = state.sublayers.depths[base] / INCH - 3.5
