@@ -22,6 +22,7 @@ class FittedLine:
     at_a_million: reading that allows 10⁶ repetitions where the covariates are 0. slope: b = 1/exponent. intercept;
     exponent, exponent_error: 1/b and its standard error, 0 where b was fixed. covariates: c. scatter: standard
     deviation of log₁₀ N about the line. unseen: (n,), residuals of log₁₀ N, each by the line through all the rest.
+    scores: (n,), ln of the probability density of each, by the line and the scatter of all the rest, nats.
     """
 
     at_a_million: float
@@ -32,6 +33,7 @@ class FittedLine:
     covariates: tuple[float, ...]
     scatter: float
     unseen: Array
+    scores: Array
 
     @property
     def unseen_scatter(self) -> float:
@@ -42,6 +44,11 @@ class FittedLine:
         """Standard errors by which squared residuals unseen are smaller than those of another line, paired."""
         apart = reference.unseen**2 - self.unseen**2
         return float(apart.mean() / (apart.std(ddof=1) / math.sqrt(len(apart))))
+
+    def score_gain(self, reference: FittedLine) -> tuple[float, float]:
+        """Sum of the log scores unseen over that of another line, and the standard error of it by pairs, nats."""
+        apart = self.scores - reference.scores
+        return float(apart.sum()), float(apart.std(ddof=1) * math.sqrt(len(apart)))
 
     def __str__(self) -> str:
         return (
@@ -87,6 +94,11 @@ def fit_fatigue_line(
         raise InputError(f"the tests last longer at larger readings, exponent {exponent:.2g}; check the columns")
     million = 10 ** ((6 - float(coefficients[0])) / exponent)
     covariate_values = tuple(float(c) for c in coefficients[2 if slope is None else 1 :])
+    unseen = left / (1 - leverage)
+    # The scatter of all the rest: their squares are less by this specimen's own part.
+    free = max(len(r) - design.shape[1] - 1, 1)
+    spread = np.maximum((left @ left - left * unseen) / free, np.finfo(float).tiny)
+    scores = -0.5 * (np.log(2 * math.pi * spread) + unseen**2 / spread)
     return FittedLine(
         million,
         1 / exponent,
@@ -95,5 +107,6 @@ def fit_fatigue_line(
         error,
         covariate_values,
         scatter,
-        left / (1 - leverage),
+        unseen,
+        scores,
     )
