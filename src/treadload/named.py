@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import sys
 import tomllib
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import Protocol, TypeVar
 
 from treadload.errors import InputError, meant
+from treadload.registry import declared_points
 
 _DATA = Path(__file__).parent / "catalogue" / "data"
 # Letters of a line of `repr`.
@@ -72,11 +74,14 @@ class Catalogue(Mapping[str, Item]):
         if not isinstance(name, str):
             raise UnknownName(f"the name of a {self.noun} must be text, got {name!r}")
         # Ours first: a broken package of others stops no one.
-        item = self._among(self._built_in, name) or self._among(self._all(), name)
+        item = self._among(self._built_in, name)
         if item is None:
-            short = [name.removeprefix(self._prefix) for name in self]
-            near = meant(name, [*self, *short], cutoff=0.5)
-            hint = f"known are {', '.join(self)}" if near is None else f"did you mean {near!r}?"
+            everything = self._all()
+            item = self._among(everything, name)
+        if item is None:
+            short = [name.removeprefix(self._prefix) for name in everything]
+            near = meant(name, [*everything, *short], cutoff=0.5)
+            hint = f"known are {', '.join(everything)}" if near is None else f"did you mean {near!r}?"
             raise UnknownName(f"no {self.noun} {name!r}; {hint}")
         return item
 
@@ -132,7 +137,7 @@ class Catalogue(Mapping[str, Item]):
         """All by name. Raises InputError for an entry point that cannot be loaded, or a name that stands twice."""
         entries = dict(self._built_in)
         taken = {_key(name): "treadload" for name in entries}
-        for point in sorted(metadata.entry_points(group=self.group), key=lambda point: point.name):
+        for point in sorted(declared_points(self.group, tuple(sys.path)), key=lambda point: point.name):
             for item in self._loaded(point):
                 before = taken.setdefault(_key(item.name), point.name)
                 if item.name in entries or before != point.name:

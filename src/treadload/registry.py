@@ -137,7 +137,7 @@ class Registry:
     def _points(self) -> dict[str, metadata.EntryPoint]:
         self._filled()
         points: dict[str, metadata.EntryPoint] = {}
-        for point in _declared(self.group, tuple(sys.path)):
+        for point in declared_points(self.group, tuple(sys.path)):
             ours = self._built_in.get(point.name)
             # What registers itself as its module is loaded, and is an entry point as well.
             if ours is not None and _place(ours.target) == point.value.replace(":", "."):
@@ -160,7 +160,7 @@ class Registry:
 
 
 @functools.cache
-def _declared(group: str, path: tuple[str, ...]) -> tuple[metadata.EntryPoint, ...]:
+def declared_points(group: str, path: tuple[str, ...]) -> tuple[metadata.EntryPoint, ...]:
     """Entry points of a group; looking through the metadata on the path takes longer than reading a case."""
     return tuple(metadata.entry_points(group=group))
 
@@ -181,7 +181,7 @@ def package_with(module: str) -> str:
 @functools.cache
 def _packages_by_module(path: tuple[str, ...]) -> dict[str, str]:
     """Top module → the package that declares an entry point of ours in it."""
-    points = [point for group in Registry.groups for point in _declared(group, path)]
+    points = [point for group in Registry.groups for point in declared_points(group, path)]
     return {point.value.partition(":")[0].partition(".")[0]: package_of(point) for point in points}
 
 

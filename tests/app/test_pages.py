@@ -43,12 +43,12 @@ class Point:
 @pytest.fixture
 def brought(monkeypatch):
     """Say which pages packages bring."""
-    real = registry._declared
+    real = registry.declared_points
 
     def bring(**targets):
         points = tuple(Point(name, target) for name, target in targets.items())
         monkeypatch.setattr(
-            registry, "_declared", lambda group, path: points if group == PAGES.group else real(group, path)
+            registry, "declared_points", lambda group, path: points if group == PAGES.group else real(group, path)
         )
 
     return bring

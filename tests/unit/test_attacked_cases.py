@@ -102,6 +102,13 @@ def test_a_case_is_a_table():
         Case.from_dict([1, 2])
 
 
+def test_keys_are_text():
+    with pytest.raises(tl.InputError, match="keys must be text, got 1; write it in quotes"):
+        Case.from_dict({1: 2})
+    with pytest.raises(tl.InputError, match="unknown key 'self'"):
+        Case.from_dict({"self": 3})
+
+
 def test_a_power_of_a_power_is_no_unit():
     # Python would be asked for 9^387420489.
     with pytest.raises(tl.InputError, match="not a unit of this kind"):

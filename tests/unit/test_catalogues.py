@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from treadload import named
 from treadload.catalogue import (
     Structure,
     TireMesh,
@@ -69,9 +70,9 @@ def offer(monkeypatch):
     def stand(group, **functions):
         found = [metadata.EntryPoint(name, f"fake:{name}", group) for name in functions]
         monkeypatch.setattr(metadata.EntryPoint, "load", lambda point: functions[point.name])
-        known = metadata.entry_points
+        real = named.declared_points
         monkeypatch.setattr(
-            metadata, "entry_points", lambda **which: found if which == {"group": group} else known(**which)
+            named, "declared_points", lambda wanted, path: found if wanted == group else real(wanted, path)
         )
 
     return stand

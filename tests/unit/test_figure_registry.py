@@ -21,7 +21,7 @@ from treadload.composing import BaseResult, result_classes
 from treadload.errors import InputError
 from treadload.figure_registry import Drawing, Plots, comparison, comparisons, figure, figures_of
 from treadload.plots.kit.figure import new_figure
-from treadload.registry import COMPARISONS, FIGURES, RESULTS, _declared
+from treadload.registry import COMPARISONS, FIGURES, RESULTS, declared_points
 from treadload.rows import Row
 
 PACKAGE = '''
@@ -271,7 +271,7 @@ def test_a_class_of_a_package_brings_its_figures(brushes, tmp_path, unprinted):
 
 def test_two_packages_with_one_figure_are_named(brushes, contact, monkeypatch):
     build(brushes, "combs", "[treadload.figures]\nContact.hexagons = combs.figures:hexagons\n", figures="")
-    monkeypatch.setattr("treadload.registry._declared", _declared.__wrapped__)
+    monkeypatch.setattr("treadload.registry.declared_points", declared_points.__wrapped__)
     with pytest.raises(InputError, match=r"'Contact.hexagons' comes from the package (brushes|combs) .*rename one"):
         dir(contact.plot)
 

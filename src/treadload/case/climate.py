@@ -137,9 +137,7 @@ class ClimatePart(Table):
         weather = self.weather(folder)
         aged = None if ageing is None else ageing.build(weather)
         temperatures = self.temperatures(road, folder)
-        climate = Climate.of_road(
-            road, temperatures, parts=self.parts_of_day, hours=self.hours, sublayers=self.sublayers, ageing=aged
-        )
+        climate = _of_road(road, temperatures, self.parts_of_day, self.hours, self.sublayers, aged)
         thermal = THERMAL.build(self.thermal)
         if isinstance(thermal, bool):
             thermal = Thermal() if thermal else None
@@ -193,3 +191,11 @@ def _of_months(months: tuple[float, ...], daily_range: float, latitude: float, c
 @lru_cache(maxsize=4)
 def _road_temperatures(road: Pavement, weather: Weather, depths: tuple[float, ...], heat: Heat) -> RoadTemperatures:
     return road_temperatures(road, weather, depths, heat)
+
+
+@lru_cache(maxsize=4)
+def _of_road(
+    road: Pavement, temperatures: RoadTemperatures, parts: int, hours: tuple[float, ...] | None,
+    sublayers: float | None, ageing: GlobalAging | None,
+) -> Climate:  # fmt: skip
+    return Climate.of_road(road, temperatures, parts=parts, hours=hours, sublayers=sublayers, ageing=ageing)

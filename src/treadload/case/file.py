@@ -31,6 +31,9 @@ class FilePart(Table):
         """Case from nested tables as a TOML file holds them. Raises InputError that names the key."""
         if not isinstance(table, Mapping):
             raise InputError(f"{name}: a case is a table of keys and values, got {table!r}")
+        stray = next((key for key in table if not isinstance(key, str)), None)
+        if stray is not None:
+            raise InputError(f"{name}: keys must be text, got {stray!r}; write it in quotes")
         if "folder" in table:
             raise InputError(f"{name}: unknown key 'folder'; paths start from the folder of the file")
         try:
@@ -38,7 +41,8 @@ class FilePart(Table):
         except InputError as error:
             raise InputError(f"{name}: {error}") from error
         try:
-            return cls.model_validate({**tables, "folder": Path(folder)})
+            # Of a class with an `__init__` of its own, `model_validate` checks everything twice.
+            return cls(**{**tables, "folder": Path(folder)})
         except ValidationError as error:
             raise InputError(f"{name}: {in_words(error)}") from error
 

@@ -22,7 +22,7 @@ from treadload.read.table import first_words
 class Case(Description):
     """Everything that a computation needs, checked: what it describes, and the tables of steps, which it asks for."""
 
-    def __init__(self, **tables: object) -> None:
+    def __init__(self, /, **tables: object) -> None:
         type(self).take_steps(tables)
         super().__init__(**tables)
 

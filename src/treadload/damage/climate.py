@@ -233,7 +233,7 @@ class Climate:
                     ageing,
                 )
             )
-        error = binning_error(road, road_temperatures, parts=parts, hours=hours)
+        error = _binning_error(soft, labels, weights, temperatures)
         surface = road_temperatures.temperatures[:, 0]
         about = (
             f"temperatures by {road_temperatures.method}: surface {surface.min():.0f} to {surface.max():.0f} °C, "
@@ -271,10 +271,16 @@ def binning_error(
     `Climate.of_road`.
     """
     labels, weights = _binned(road_temperatures, parts, hours)
+    return _binning_error(_softness(road, road_temperatures), labels, weights, road_temperatures.temperatures)
+
+
+def _binning_error(
+    soft: Sequence[tuple[Array, Array] | None], labels: np.ndarray, weights: Array, temperatures: Array
+) -> float:
+    """`binning_error` of hours (nt,) with their bins and weights, and temperatures (nt, nz)."""
     bins = [labels == label for label in np.unique(labels) if weights[labels == label].sum() > 0]
     shares = np.array([weights[rows].sum() for rows in bins])
     worst = 0.0
-    temperatures, soft = road_temperatures.temperatures, _softness(road, road_temperatures)
     binned = np.array([_equivalent(soft, temperatures[rows], weights[rows]) for rows in bins])
     for number, curve in enumerate(soft):
         if curve is None:

@@ -11,7 +11,7 @@ import xarray as xr
 from treadload.case.description import Description
 from treadload.case.step import Results, Source, at_key, numbers_of
 from treadload.damage import Life
-from treadload.damage.climate import Season
+from treadload.damage.climate import Climate, Season
 from treadload.life.ageing import longer_by_ageing
 from treadload.life.caveats import traffic_doubts
 from treadload.life.design import DEFAULT_TOLERANCE
@@ -78,11 +78,11 @@ class LifeStep(Source, name="life"):
                 f"the climate has {len(temperatures)} temperatures, but no layer has moduli for them; give mixes of "
                 "the catalogue or materials with a shift, or one temperature"
             )
-        self._check_seasons(case, road)
+        self._check_seasons(case, road, climate)
 
-    def _check_seasons(self, case: Description, road: Pavement) -> None:
+    def _check_seasons(self, case: Description, road: Pavement, climate: Climate) -> None:
         criteria = case.build_criteria()
-        for season in case.build_climate().seasons:
+        for season in climate.seasons:
             profile, warm = season.profile, season.temperatures
             if profile is None:
                 each = list(warm) if isinstance(season.temperature, tuple) else [*warm] * len(road.layers)
