@@ -36,7 +36,7 @@ from pathlib import Path  # noqa: E402
 from timing import print_table  # noqa: E402
 
 import treadload as tl  # noqa: E402
-from treadload.kernels.layers import synthesis  # noqa: E402
+from treadload.kernels.layers import load_spectra, synthesis  # noqa: E402
 from treadload.life import contacts, passage  # noqa: E402
 from treadload.response import layered, several  # noqa: E402
 
@@ -44,7 +44,7 @@ DESIGN = Path(__file__).parents[1] / "examples" / "design_life" / "design.toml"
 STAGES = (
     ("contacts", contacts, "contact_in_state"),
     ("closed form of the top", layered, "half_space_fields"),
-    ("loads into wavenumbers", synthesis._Transform, "at"),
+    ("loads into wavenumbers", load_spectra.LoadSpectrum, "at"),
     ("functions of |k|", synthesis.ElasticPlane, "radial"),
     ("products of both", synthesis, "_waves"),
     ("back to points", synthesis, "_add"),

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import treadload as tl
 from treadload.contact.bodies.section_tables import ship, shipped_path
-from treadload.contact.solve import DEFAULT_SPACING
+from treadload.contact.contact_grid import DEFAULT_SPACING
 from treadload.kernels.sections import Section
 from treadload.tire import TreadProfile
 from treadload.tire.belt import belts

@@ -102,10 +102,10 @@ def test_who_does_it_is_told_for_the_chosen_criterion(solved):
 def test_a_life_is_taken_home_also_after_the_process_was_ended(solved, kind):
     engine, said = solved
     other = Engine(lambda line: said.append(json.loads(line)))
-    other.answer({"id": 1, "do": "folder", "folder": str(engine._folder)})
+    other.answer({"id": 1, "do": "folder", "folder": str(engine.runs.folder)})
     said.clear()
     other.answer({"id": 4, "do": "export", "run": "a", "kind": kind})
-    file = engine._folder / said[-1]["file"]
+    file = engine.runs.folder / said[-1]["file"]
     assert file.stat().st_size > 500
     if kind == "nc":
         held = open_results(file)

@@ -39,8 +39,8 @@ from treadload.damage.laws.equivalence import AGGRESSIVENESS, GROUP_FACTORS, agg
 from treadload.damage.laws.french import RISK, platform_factor, thickness_scatter
 from treadload.damage.laws.indian import IrcCementTreated, IrcFatigue, IrcRutting
 from treadload.damage.laws.of_layer import OnLayer
-from treadload.damage.reading import _around
 from treadload.damage.traffic import AxleClass, Traffic, Wander
+from treadload.damage.worst_point import _around
 from treadload.errors import InputError
 from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement

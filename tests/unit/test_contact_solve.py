@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import xarray as xr
 
-from treadload.contact import Contact, Rolling, solve_contact, solve_transient, turn_on_the_spot
+from treadload.contact import Contact, Rolling, contact_grid, solve_contact, solve_transient, turn_on_the_spot
 from treadload.contact import solve as solving
 from treadload.contact.bodies.influence import forget_operators
 from treadload.contact.solvers import coupling
@@ -430,8 +430,8 @@ def test_a_contact_on_a_grid_offset_is_located_once_and_is_the_same_in_every_dig
     forget_operators()
     alone = solve_contact(replace(TIRE, name="alone"), ROAD, wheel, spacing=SPACING, offset=(0.5, 0.5))
     located = []
-    before = solving.check_numbers
-    monkeypatch.setattr(solving, "check_numbers", lambda *at: located.append(at) or before(*at))
+    before = contact_grid.check_numbers
+    monkeypatch.setattr(contact_grid, "check_numbers", lambda *at: located.append(at) or before(*at))
     forget_operators()
     tire = replace(TIRE, name="both")
     solve_contact(tire, ROAD, wheel, spacing=SPACING)

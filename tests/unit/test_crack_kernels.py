@@ -11,7 +11,15 @@ from treadload.damage.growth.options import POINTS
 from treadload.kernels.fracture import closure
 from treadload.kernels.fracture.closure import bounded, stress_intensity
 from treadload.kernels.fracture.crack import crack_faces, straight
-from treadload.kernels.fracture.dislocations import Section, edge_stress, screw_stress
+from treadload.kernels.fracture.dislocations import (
+    Section,
+    edge_images,
+    edge_in_the_plane,
+    edge_layers,
+    screw_images,
+    screw_in_the_plane,
+    screw_layers,
+)
 from treadload.kernels.fracture.interface import dundurs, interface_singularity
 from treadload.kernels.fracture.layers import Strip
 
@@ -164,6 +172,17 @@ def test_band_crack_from_below_is_an_edge_crack_upside_down():
     assert up.antiplane.sum() / math.sqrt(0.3 * math.pi) == pytest.approx(
         math.sqrt(2 / (math.pi * 0.3) * math.tan(math.pi * 0.15)), rel=1e-3
     )
+
+
+def edge_stress(section, source, point):
+    """Of the plane, its images and the layers: what the faces take apart for their quadratures."""
+    parts = edge_images(section, source, point), edge_layers(section, source, point)
+    return edge_in_the_plane(source, point) + sum(parts)
+
+
+def screw_stress(section, source, point):
+    parts = screw_images(section, source, point), screw_layers(section, source, point)
+    return screw_in_the_plane(source, point) + sum(parts)
 
 
 def test_boundaries_are_free_bonded_or_slide():

@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from treadload.contact import Rolling, solve_contact
-from treadload.contact import solve as solving
+from treadload.contact import Rolling, contact_grid, solve_contact
 from treadload.contact.bodies.choose import Pair
-from treadload.contact.solve import BorderError
+from treadload.contact.contact_grid import BorderError
 from treadload.contact.solvers import tangential
 from treadload.errors import InputError
 from treadload.grid import Grid
@@ -32,7 +31,7 @@ def wheel(load=1e3, **given):
 
 
 def placed(rolling, spacing=CELL, tire=TIRE):
-    return solving.place(tire, rolling, Pair.of(tire, ROAD).both, spacing)
+    return contact_grid.place(tire, rolling, Pair.of(tire, ROAD).both, spacing)
 
 
 @pytest.mark.parametrize("load", [50.0, 400.0, 1e3])
@@ -55,7 +54,7 @@ def test_beside_the_patch_lies_the_margin_and_little_more(load):
 def test_a_grid_grows_where_it_cut_and_only_there(along, across):
     small = Grid.on_lattice(0.1, 0.08, CELL)
     length, width = TIRE.extent
-    grown = solving._widened(TIRE, small, BorderError("cut", along=along, across=across))
+    grown = contact_grid.widened(TIRE, small, BorderError("cut", along=along, across=across))
     if not (along or across):
         assert (grown.nx, grown.ny) == (small.nx, small.ny)
         return
@@ -82,12 +81,12 @@ def test_a_grid_grows_where_it_cut_and_only_there(along, across):
 )
 def test_a_grid_of_the_whole_tread_does_not_grow(size, along, across):
     whole = Grid.on_lattice(min(size[0], TIRE.extent[0]), min(size[1], TIRE.extent[1] + 2 * MARGIN), CELL)
-    assert solving._widened(TIRE, whole, BorderError("cut", along=along, across=across)) is None
+    assert contact_grid.widened(TIRE, whole, BorderError("cut", along=along, across=across)) is None
 
 
 def test_a_height_map_never_grows():
     cut = BorderError("cut", along=True, across=True)
-    assert solving._widened(MAP, Grid.on_lattice(0.01, 0.01, 4e-3), cut) is None
+    assert contact_grid.widened(MAP, Grid.on_lattice(0.01, 0.01, 4e-3), cut) is None
 
 
 @pytest.fixture(scope="module")
@@ -96,7 +95,7 @@ def light():
 
 
 def grid_for(start, rolling, spacing=None, tire=TIRE):
-    return solving._same_place(tire, rolling, Pair.of(tire, ROAD).both, start, spacing)[0]
+    return contact_grid.same_place(tire, rolling, Pair.of(tire, ROAD).both, start, spacing)[0]
 
 
 def grid_of(contact):

@@ -15,7 +15,7 @@ from treadload.contact.bodies.block_tables import block_table
 from treadload.contact.bodies.blocks import belt_alone, block_influence, on_blocks
 from treadload.contact.bodies.choose import Pair, road_surface
 from treadload.contact.bodies.influence import Influence
-from treadload.contact.solve import place
+from treadload.contact.contact_grid import place
 from treadload.contact.solvers.marching import Stage, march
 from treadload.damage.pitch import respond_to_pitch
 from treadload.errors import InputError

@@ -23,7 +23,7 @@ from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels, state
 from treadload.materials import Elastic, Mix, Prony
 from treadload.pavement import HALF_BONDED, Layer, Pavement
-from treadload.response import GridLoad, UniformDisc, several, solve_response
+from treadload.response import GridLoad, UniformDisc, layout, several, solve_response
 from treadload.response import layered as layered_module
 from treadload.response.layered import View
 from treadload.response.several import Question, tensors_of_many
@@ -122,7 +122,7 @@ def test_sums_over_depths_are_those_of_the_depths(loads, at):
 def test_what_pairs_share_is_computed_once(monkeypatch):
     """The half-space for each Poisson's ratio, the layers' functions for each road and depth."""
     calls = {"half": 0, "transfer": 0}
-    half, transfer = layered_module.half_space_fields, layered_module.transfer
+    half, transfer = layered_module.half_space_fields, layout.transfer
 
     def counted(name, function):
         def count(*given, **more):
@@ -132,8 +132,8 @@ def test_what_pairs_share_is_computed_once(monkeypatch):
         return count
 
     monkeypatch.setattr(layered_module, "half_space_fields", counted("half", half))
-    monkeypatch.setattr(layered_module, "transfer", counted("transfer", transfer))
-    layered_module._plane.cache_clear()
+    monkeypatch.setattr(layout, "transfer", counted("transfer", transfer))
+    layout._plane.cache_clear()
     roads, wheels = [road(modulus) for modulus in (2e9, 3e9, 4e9)], (LOADS[0], [load()])
     questions = [Question(loads, one, np.array([0.0])) for one in roads for loads in wheels]
     tensors_of_many(questions, X, Y, needs=STRESS)

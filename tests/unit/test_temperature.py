@@ -20,8 +20,11 @@ from treadload.materials import (
     Thermorheological,
 )
 
-MIX = Thermorheological.huet_sayegh(
-    40995e6, 18e6, 2.356, 0.186, 0.515, (2.2387, -0.3996, 0.00152), 0.35, tested=(-10.0, 40.0)
+# As its parameters are published: ln τ = A₀ + A₁ T + A₂ T², τ in s, T in °C.
+MIX = Thermorheological(
+    HuetSayegh(40995e6, 18e6, 2.356, 0.186, 0.515, math.exp(2.2387), 0.35),
+    QuadraticShift(-0.3996, 0.00152),
+    (-10.0, 40.0),
 )
 LAWS = [WLF(17.44, 51.6, 20.0), Arrhenius(2e5, 20.0), QuadraticShift(-0.4, 0.0015, 20.0),
         TabulatedShift((0.0, 20.0, 60.0), (3.0, 0.0, -4.0), 20.0)]  # fmt: skip

@@ -13,7 +13,7 @@ from treadload.damage.fields import peak
 from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.quantities import DissipatedEnergy, HorizontalTension, MazarsStrain
 from treadload.damage.quantity import Where
-from treadload.damage.reading import _between
+from treadload.damage.worst_point import _between
 from treadload.response.fields import response_dataset
 
 WHEEL = tl.UniformDisc(0.15, 8e5)

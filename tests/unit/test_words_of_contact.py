@@ -8,7 +8,7 @@ import pytest
 
 from treadload.contact import Maneuver, Rolling, solve_contact, solve_transient
 from treadload.contact.cautions import of_tire
-from treadload.contact.solve import BorderError, check_border
+from treadload.contact.contact_grid import BorderError, check_border
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.materials import Elastic

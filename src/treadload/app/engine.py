@@ -16,7 +16,6 @@ import shutil
 import sys
 import threading
 import time
-from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
 
@@ -26,28 +25,24 @@ from treadload.app.basin_points import about_basins, basin_figures, basin_rows, 
 from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
 from treadload.app.result_rows import allowed_rows, rows_of
-from treadload.app.stored_run import Stopped, StoredRun
+from treadload.app.stored_run import Stopped, StoredRun, StoredRuns
 from treadload.app.study_points import about_study, point_of, point_rows, study_of
 from treadload.app.unsolved import left_out
 from treadload.case import Case
 from treadload.composing import BaseResult
-from treadload.contact import Contact
 from treadload.damage import Verdict
 from treadload.damage.life import Life
-from treadload.errors import InputError, TreadloadError
+from treadload.errors import TreadloadError
 from treadload.files import parse_toml
 from treadload.results import open_results, save_results, to_tree
 from treadload.steps.allowed import passes_allowed
 from treadload.steps.chain import result_of
 from treadload.steps.chain import run as run_case
 from treadload.steps.footprint import FootprintStep
-from treadload.steps.loaded import Loaded, contact_of, load_case
+from treadload.steps.loaded import contact_of
 from treadload.steps.scene import Options, Progress, Scene, stream
 from treadload.templates import KINDS, first_case
-from treadload.tire import Tire
 
-# Results held in memory; others are read from their files again.
-_IN_MEMORY = 4
 # Depths of the block of road below the maps, from which slices along any line are cut.
 _BLOCK_DEPTHS = 12
 # Progress is told so often at most, s.
@@ -61,9 +56,7 @@ class Engine:
 
     def __init__(self, write: Callable[[str], None], memory: int = 0) -> None:
         self._write, self._lock, self._memory = write, threading.Lock(), memory
-        self._runs: OrderedDict[str, StoredRun] = OrderedDict()
-        self._tires: OrderedDict[str, Tire] = OrderedDict()
-        self._folder = Path()
+        self.runs = StoredRuns()
         self._stop = threading.Event()
         self._solving: threading.Thread | None = None
 
@@ -120,7 +113,7 @@ class Engine:
             say(error=f"the program failed: {type(error).__name__}: {error}")
 
     def _take_folder(self, say: Say, folder: str) -> None:
-        self._folder = Path(folder)
+        self.runs.folder = Path(folder)
         say(done=True)
 
     # Solving.
@@ -128,7 +121,7 @@ class Engine:
     def _solve(self, say: Say, run: str, table: dict[str, object], theme: str, view: View) -> None:
         began = time.monotonic()
         used = time.process_time()
-        case = Case.from_dict(table, folder=self._folder, name="case")
+        case = Case.from_dict(table, folder=self.runs.folder, name="case")
         stored = StoredRun(case)
 
         def tell(text: str) -> None:
@@ -137,7 +130,7 @@ class Engine:
             say(stage=text, seconds=time.monotonic() - began)
 
         def shown(stage: str) -> None:
-            self._keep(run, stored)
+            self.runs.keep(run, stored)
             warnings = [text for part in stored.parts.values() for text in part.warnings]
             drawn = (
                 map_figures.places(stored.parts, theme=theme)
@@ -153,7 +146,7 @@ class Engine:
 
         tell("reading the case")
         # A body that dents its road is refused when its road is asked for.
-        touch = contact_of if case.tire is None else functools.partial(contact_of, tire=self._tire(case, tell))
+        touch = contact_of if case.tire is None else functools.partial(contact_of, tire=self.runs.tire(case, tell))
         scene = Scene(case, Progress(tell), Options(leave_out=left_out(case), touch=touch))
         stored.load = scene.loaded
         for name, part in stream(scene):
@@ -161,7 +154,7 @@ class Engine:
             shown(name)
         say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
         # The page is at work again; what follows makes slices along any line quick, and the run outlast this process.
-        self._save(run, stored)
+        self.runs.save(run, stored)
         tell("slices through the road")
         bottom = case.response.slices_to(stored.load.road.interfaces.tolist(), rigid_base=stored.load.road.rigid_base)
         stored.block = stored.load.solve(
@@ -178,7 +171,7 @@ class Engine:
 
     def _life(self, say: Say, run: str, table: dict[str, object], theme: str) -> None:
         began, used, last_sent = time.monotonic(), time.process_time(), 0.0
-        case = Case.from_dict(table, folder=self._folder, name="case")
+        case = Case.from_dict(table, folder=self.runs.folder, name="case")
         stored = StoredRun(case)
 
         def tell(done: int, total: int, what: str) -> None:
@@ -192,14 +185,14 @@ class Engine:
 
         def shown(name: str, part: BaseResult) -> None:
             stored.parts[name] = part
-            self._keep(run, stored)
+            self.runs.keep(run, stored)
             say(part=name, pictures=pictures_of(name, stored.parts), **self._details(stored),
                 seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip
 
         say(stage="reading the case", seconds=0.0)
         result = run_case(case, progress=Progress(count=tell), shown=shown)
-        self._keep(run, stored)
-        save_results(result.to_tree(), self._folder / f"{run}.nc")
+        self.runs.keep(run, stored)
+        save_results(result.to_tree(), self.runs.folder / f"{run}.nc")
         say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
         say(done=True)
 
@@ -214,7 +207,7 @@ class Engine:
         }
 
     def _shares(self, say: Say, run: str, criterion: str) -> None:
-        stored = self._run_of(run)
+        stored = self.runs.run_of(run)
         life = stored.parts["life"]
         assert isinstance(life, Life)
         details = self._details(stored, criterion)
@@ -222,65 +215,20 @@ class Engine:
         say(pictures=drawn, **details, done=True)
 
     def _pictures(self, say: Say, run: str) -> None:
-        stored = self._run_of(run)
+        stored = self.runs.run_of(run)
         drawn = {key: picture for name in stored.parts for key, picture in pictures_of(name, stored.parts).items()}
         say(pictures=drawn, **self._details(stored), done=True)
 
     def _gallery(self, say: Say, run: str) -> None:
-        say(titles=titles_of(self._run_of(run).parts), done=True)
+        say(titles=titles_of(self.runs.run_of(run).parts), done=True)
 
     def _picture(self, say: Say, run: str, key: str) -> None:
-        say(picture=picture_of(key, self._run_of(run).parts), done=True)
-
-    def _tire(self, case: Case, tell: Callable[[str], None]) -> Tire:
-        """The tire of a case; reading a scan takes longer than a small solve."""
-        assert case.tire is not None
-        files = [self._folder / name for name in (case.tire.scan, case.tire.height_map) if name]
-        stamps = [os.stat(file).st_mtime_ns for file in files if file.is_file()]
-        key = f"{case.tire.model_dump_json()} {stamps}"
-        if key not in self._tires:
-            tell("reading the tire")
-            self._tires[key] = case.build_tire()
-            while len(self._tires) > _IN_MEMORY:
-                self._tires.popitem(last=False)
-        self._tires.move_to_end(key)
-        return self._tires[key]
-
-    def _keep(self, run: str, stored: StoredRun) -> None:
-        self._runs[run] = stored
-        self._runs.move_to_end(run)
-        while len(self._runs) > _IN_MEMORY:
-            self._runs.popitem(last=False)
-
-    def _save(self, run: str, stored: StoredRun) -> None:
-        road = None if stored.load is None else stored.load.road
-        save_results(to_tree(stored.parts, case=stored.case, road=road), self._folder / f"{run}.nc")
-
-    def _run_of(self, run: str) -> StoredRun:
-        """A run, from memory or from its file. Raises InputError where it is not there."""
-        if run not in self._runs:
-            opened = open_results(self._folder / f"{run}.nc")
-            case = opened.case
-            self._keep(run, StoredRun(case if isinstance(case, Case) else None, dict(opened.parts), opened=True))
-        return self._runs[run]
-
-    def _loaded(self, stored: StoredRun) -> Loaded:
-        """The road of a run under its wheels. Raises InputError for a run without a case."""
-        if stored.load is None:
-            if stored.case is None or stored.case.command == "life":
-                raise InputError("this result holds no case of a wheel, so its road cannot be read anew")
-            # The case in a file has lost the folder that its tire stands in.
-            case = Case.from_dict(stored.case.as_tables(), folder=self._folder)
-            contact = stored.parts.get("contact")
-            stored.load = load_case(
-                case, lambda text: None, contact=contact if isinstance(contact, Contact) else None
-            )
-        return stored.load
+        say(picture=picture_of(key, self.runs.run_of(run).parts), done=True)
 
     # Drawing.
 
     def _maps(self, say: Say, run: str, theme: str, view: View) -> None:
-        stored = self._run_of(run)
+        stored = self.runs.run_of(run)
         warnings = [text for part in stored.parts.values() for text in part.warnings]
         say(map_figures.maps(stored.parts, theme=theme, **view), rows=rows_of(stored.parts), done=True,
             warnings=list(dict.fromkeys(warnings)), choices=map_figures.choices_of(stored.parts),
@@ -289,17 +237,17 @@ class Engine:
     def _cut(
         self, say: Say, run: str, theme: str, line: list[float] | None, over: str | None = None, name: str = ""
     ) -> None:
-        stored = self._run_of(run)
-        overlaid = None if over is None else self._run_of(over).parts.get("contact")
+        stored = self.runs.run_of(run)
+        overlaid = None if over is None else self.runs.run_of(over).parts.get("contact")
         # Where this process goes on with the run of one that gave way, the road below it is solved on request.
         say(map_figures.along(stored.parts, stored.block, line, theme=theme, name=name, over=overlaid), done=True,
             lacks_section=stored.opened and stored.block is None)  # fmt: skip
 
     def _section(self, say: Say, run: str) -> None:
         """Solve the block of road below a run that was opened from its file."""
-        stored = self._run_of(run)
+        stored = self.runs.run_of(run)
         if stored.block is None:
-            load = self._loaded(stored)
+            load = self.runs.loaded(stored)
             faces = load.road.interfaces.tolist()
             bottom = load.case.response.slices_to(faces, rigid_base=load.road.rigid_base)
             stored.block = load.solve(map_figures.block_depths(bottom, faces, _BLOCK_DEPTHS))
@@ -307,38 +255,38 @@ class Engine:
 
     def _difference(self, say: Say, first: str, second: str, name: str, theme: str, width: float,
                     labels: list[str]) -> None:  # fmt: skip
-        left, right = self._run_of(first), self._run_of(second)
+        left, right = self.runs.run_of(first), self.runs.run_of(second)
         say(map_figures.difference(left.parts, right.parts, name, theme=theme, width=width, labels=labels), done=True)
 
     def _tread(self, say: Say, run: str, theme: str) -> None:
-        say(map_figures.tread(self._run_of(run).parts, theme=theme), done=True)
+        say(map_figures.tread(self.runs.run_of(run).parts, theme=theme), done=True)
 
     def _open(self, say: Say, run: str, file: str, kind: str) -> None:
         """Take an uploaded file as a run: a result, or a measured footprint."""
-        path = self._folder / file
+        path = self.runs.folder / file
         if kind == "footprint":
-            parts: dict[str, BaseResult] = {FootprintStep.makes[0]: FootprintStep(file=file).read(self._folder)}
-            self._keep(run, StoredRun(None, parts))
-            save_results(to_tree(parts), self._folder / f"{run}.nc")
+            parts: dict[str, BaseResult] = {FootprintStep.makes[0]: FootprintStep(file=file).read(self.runs.folder)}
+            self.runs.keep(run, StoredRun(None, parts))
+            save_results(to_tree(parts), self.runs.folder / f"{run}.nc")
         else:
             check_opened(kind, open_results(path).parts)
-            shutil.copyfile(path, self._folder / f"{run}.nc")
+            shutil.copyfile(path, self.runs.folder / f"{run}.nc")
         say(done=True)
 
     def _study(self, say: Say, run: str) -> None:
-        say(**about_study(study_of(self._run_of(run).parts)), done=True)
+        say(**about_study(study_of(self.runs.run_of(run).parts)), done=True)
 
     def _point(self, say: Say, run: str, at: dict[str, int], reading: str, along: str, field: str, theme: str,
                width: float) -> None:  # fmt: skip
-        study = study_of(self._run_of(run).parts)
+        study = study_of(self.runs.run_of(run).parts)
         say(point_of(study, at, reading, along, field, theme, width), rows=point_rows(study, at),
             warnings=list(study.warnings), done=True)  # fmt: skip
 
     def _basins(self, say: Say, run: str) -> None:
-        say(**about_basins(basins_of(self._run_of(run).parts)), done=True)
+        say(**about_basins(basins_of(self.runs.run_of(run).parts)), done=True)
 
     def _basin(self, say: Say, run: str, drop: int, theme: str) -> None:
-        result = basins_of(self._run_of(run).parts)
+        result = basins_of(self.runs.run_of(run).parts)
         say(
             basin_figures(result, drop, theme),
             rows=basin_rows(result, drop),
@@ -351,18 +299,18 @@ class Engine:
     def _export(self, say: Say, run: str, kind: str, view: View | None = None) -> None:
         from treadload.app.export_files import write_export
 
-        stored = self._run_of(run)
+        stored = self.runs.run_of(run)
 
         def whole() -> object:
             if stored.case is None or stored.case.command == "life":
-                return open_results(self._folder / f"{run}.nc")
-            load = self._loaded(stored)
+                return open_results(self.runs.folder / f"{run}.nc")
+            load = self.runs.loaded(stored)
             scene = Scene(load.case, options=Options(contact=load.contact))
             for _ in stream(scene):
                 pass
             return result_of(scene)
 
-        say(done=True, file=write_export(stored.parts, whole, kind, self._folder, run, view or {}))
+        say(done=True, file=write_export(stored.parts, whole, kind, self.runs.folder, run, view or {}))
 
 
 def warm() -> None:

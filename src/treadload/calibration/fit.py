@@ -14,7 +14,7 @@ import scipy
 from treadload.calibration.evaluations import Evaluations, Progress
 from treadload.calibration.problem import Problem
 from treadload.calibration.solution import Calibration, Fit, solution
-from treadload.contact.solve import DEFAULT_SPACING
+from treadload.contact.contact_grid import DEFAULT_SPACING
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.footprint.measured import FRICTION, READINGS, Measured, Unknown, unknowns
 from treadload.kernels.arrays import Array

@@ -21,7 +21,7 @@ from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bodies.section_tables import interpolated
-from treadload.contact.solve import BorderError, check_border, place
+from treadload.contact.contact_grid import BorderError, check_border, place
 from treadload.contact.solvers.normal import solve_normal
 from treadload.errors import ConvergenceError, InputError, TreadloadError, one_line
 from treadload.footprint.measured import FRICTION, READINGS, Measured, Unknown

@@ -10,7 +10,7 @@ from pydantic import field_validator, model_validator
 from treadload.case.choices import TIRE_MATERIAL, TireMaterial
 from treadload.read import As, Table
 from treadload.tire import Belt, Tire, TreadProfile, example_mesh
-from treadload.tire.tire import BLOCKS_ROLL
+from treadload.tire.keywords import BLOCKS_ROLL
 from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.

@@ -15,7 +15,7 @@ from treadload.tire import Tire
 from treadload.tire.belt import belt_doubt
 from treadload.tire.modulus import modulus_doubt
 from treadload.tire.surface import HeightMapSurface
-from treadload.tire.tire import UNDERTREAD
+from treadload.tire.undertread import UNDERTREAD
 
 # NaN by design: no material, or nothing that rolls.
 _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}

@@ -21,13 +21,13 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
+from treadload.contact.contact_grid import cell_across, check_border, place
 from treadload.contact.crossing_fields import STRIDE, Moved, Scene, doubts, fields_of
 from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.relief import above, check_step
 from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip

@@ -18,10 +18,10 @@ from treadload.citations import DENTS
 from treadload.composing import BaseResult, Holds
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
+from treadload.contact.contact_grid import cell_across, check_border, place
 from treadload.contact.load_steps import STEP_ERROR, Pressed, Pressing, step_error
 from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
-from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.yielding import Ground, Yielding
 from treadload.errors import InputError, positive

@@ -20,12 +20,12 @@ from treadload.contact import cautions
 from treadload.contact.bodies.blocks import belt_alone
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
+from treadload.contact.contact_grid import DEFAULT_SPACING, place
 from treadload.contact.fields import loads, tractions
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.pitch_window import Window
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
-from treadload.contact.solve import DEFAULT_SPACING, place
 from treadload.contact.solvers.marching import State
 from treadload.errors import ConvergenceError, GeometryError, InputError, positive
 from treadload.grid import Grid

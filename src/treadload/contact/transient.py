@@ -19,6 +19,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, surface_of
 from treadload.contact.bounds import check_ribs
+from treadload.contact.contact_grid import cell_across, check_border, place
 from treadload.contact.fields import Scene, tractions
 from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
@@ -26,7 +27,6 @@ from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
-from treadload.contact.solve import cell_across, check_border, place
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.tangential import Forces

@@ -28,10 +28,11 @@ from treadload.damage.laws.conditions import conditions_of
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.laws.validity import warnings_of
 from treadload.damage.quantity import READINGS, Reading, check_reading
-from treadload.damage.reading import Field, check_law, closer, local_field, mean_field, under_both
+from treadload.damage.reading import Field, check_law, local_field, mean_field, under_both
 from treadload.damage.rib_sides import filled_ribs
 from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_loads
 from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
+from treadload.damage.worst_point import closer
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
 from treadload.rows import Place, Row, row

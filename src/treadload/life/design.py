@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
-from treadload.contact.solve import DEFAULT_SPACING
+from treadload.contact.contact_grid import DEFAULT_SPACING
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.rutting import Rutting

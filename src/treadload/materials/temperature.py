@@ -19,7 +19,6 @@ from typing_extensions import Protocol, runtime_checkable
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials.celsius import check_celsius
-from treadload.materials.huet_sayegh import HuetSayegh
 from treadload.materials.kinds import Viscoelastic
 from treadload.registry import SHIFTS
 from treadload.units import Celsius, Kelvin, MolarEnergy, Number, PerDegree, PerDegreeSquared
@@ -283,27 +282,6 @@ class Thermorheological:
             if not -_KELVIN < low < high < math.inf:
                 raise InputError(f"tested must be (lowest, highest) temperature, °C, got {low:g} and {high:g}")
             object.__setattr__(self, "tested", (low, high))
-
-    @classmethod
-    def huet_sayegh(
-        cls,
-        glassy_modulus: float,
-        static_modulus: float,
-        delta: float,
-        k: float,
-        h: float,
-        coefficients: tuple[float, float, float],
-        poisson: float,
-        *,
-        tested: tuple[float, float] | None = None,
-    ) -> Thermorheological:
-        """A Huet-Sayegh mix as its parameters are published: ln τ = A₀ + A₁ T + A₂ T², τ in s, T in °C.
-
-        coefficients: (A₀, A₁, A₂). The rest as for HuetSayegh and Thermorheological. Raises InputError.
-        """
-        a0, a1, a2 = coefficients
-        mix = HuetSayegh(glassy_modulus, static_modulus, delta, k, h, math.exp(a0), poisson)
-        return cls(mix, QuadraticShift(a1, a2), tested)
 
     def at(self, temperature: float, *, extrapolate: bool = False) -> Viscoelastic:
         """The material at a temperature, °C: of the same kind, its times multiplied by aT.

@@ -10,8 +10,8 @@ import xarray as xr
 
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import power_of_ten, thousands
-from treadload.plots.sweeps.curves import capital
 from treadload.plots.sweeps.reading import FAILED, UNSOLVED, View, main_readings
+from treadload.plots.sweeps.titles import capital
 from treadload.reporting.tables import NamedTable
 from treadload.sweeps import causes_of
 from treadload.sweeps.design import CASE

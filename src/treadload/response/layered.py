@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -16,16 +14,15 @@ from treadload.kernels.gridding.gridded import grid_cost
 from treadload.kernels.gridding.points import Points
 from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.layers.hankel import AxialPlanes, Disc, synthesise_discs
-from treadload.kernels.layers.layered import Stack, transfer
-from treadload.kernels.layers.synthesis import FULL, Accuracy, Cells, ElasticPlane, rule, synthesise_cells
-from treadload.materials import Solid
+from treadload.kernels.layers.layered import Stack
+from treadload.kernels.layers.load_spectra import Cells
+from treadload.kernels.layers.synthesis import FULL, Accuracy, ElasticPlane, rule, synthesise_cells
 from treadload.pavement import Pavement
-from treadload.pavement.stack import medium_of, plane_of, stack_of
+from treadload.pavement.stack import medium_of, plane_of
 from treadload.response.half_space import EvaluationGrid, half_space_fields
+from treadload.response.layout import Layout, Site
 from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc
 
-# Nearer to the first interface than this part of its depth the split gains nothing and costs the closed form.
-_SPLIT = 0.9
 # A wavenumber costs so many pairs of a point and a corner in the closed form, measured.
 _WAVE_COST = 1.4
 # A net shear force below this part of the shear in all is round-off.
@@ -60,19 +57,6 @@ class View:
     def shape(self) -> tuple[int, int]:
         """Of a field."""
         return (len(self.y), len(self.x)) if self.at is None else self.at.shape
-
-
-@dataclass(frozen=True, eq=False)
-class Site:
-    """Where in a road something is asked: an elastic road and its depths, (nz,), m, >= 0.
-
-    mean: weights (rows, nz) of sums over the depths, each within one layer, which are asked in their place; None for
-    the depths themselves.
-    """
-
-    road: Pavement
-    depths: Array
-    mean: Array | None = None
 
 
 Solved = tuple[Array, Array, Array, str]
@@ -115,7 +99,7 @@ def layered_responses(
     Displacement along a net shear force is NaN in the layers above a frictionless interface: nothing holds them.
     Raises InputError where that decay is too slow for the distance of the points.
     """
-    layouts = [_Layout.of(site, below, view.accuracy) for site in sites]
+    layouts = [Layout.of(site, below, view.accuracy) for site in sites]
     discs = [[load for load in several if isinstance(load, UniformDisc)] for several in loads]
     gridded = [[load for load in several if isinstance(load, GridLoad)] for several in loads]
     under_cells = [pair for pair in pairs if gridded[pair[0]]]
@@ -138,7 +122,7 @@ def layered_responses(
 
 
 def _solved(
-    fields: Array, layout: _Layout, loads: Sequence[SurfaceLoad], methods: set[str], components: Sequence[int]
+    fields: Array, layout: Layout, loads: Sequence[SurfaceLoad], methods: set[str], components: Sequence[int]
 ) -> Solved:
     """Stress, strain and displacement of one pair from its fields (components, rows, my, mx)."""
     stack, shape = layout.stack, fields.shape[1:]
@@ -179,97 +163,6 @@ def drifting(stack: Stack, loads: Sequence[SurfaceLoad]) -> tuple[bool, bool]:
 
 
 @dataclass(frozen=True, eq=False)
-class _Layout:
-    """Depths in a stack: the layer of each, its side of an interface, whether the top's half-space is split off.
-
-    fall: waves are cut where they have fallen to e^-fall, and at cut, 1/m, where a blur has faded. mean: weights
-    (rows, nz) of the sums that are asked.
-    """
-
-    materials: tuple[Solid, ...]
-    stack: Stack
-    depths: Array
-    where: list[int]
-    below: bool
-    split: list[bool]
-    fall: float
-    mean: Array
-    cut: float = math.inf
-
-    @classmethod
-    def of(cls, site: Site, below: bool, accuracy: Accuracy) -> _Layout:
-        """With the half-space split off wherever that may gain something: nowhere where waves are blurred."""
-        stack = stack_of(site.road)
-        depths = stack.snapped(site.depths)
-        where = [stack.layer_at(float(z), below) for z in depths]
-        near = [
-            layer == 0 and z < _SPLIT * stack.interfaces[0] and not accuracy.blur
-            for z, layer in zip(depths, where, strict=True)
-        ]
-        materials = tuple(layer.elastic for layer in site.road.distinct_layers)
-        mean = np.eye(len(depths)) if site.mean is None else site.mean
-        return cls(materials, stack, depths, where, below, near, accuracy.fall, mean, accuracy.cut)
-
-    @property
-    def length(self) -> float:
-        """Characteristic length, m: of the layers, or the deepest point."""
-        contrast = (max(self.stack.moduli) / min(self.stack.moduli)) ** (1 / 3)
-        return float(max(self.stack.interfaces[-1] * contrast, self.depths.max()))
-
-    @property
-    def limit(self) -> Array:
-        """Largest wavenumber that matters at each depth, 1/m."""
-        top = self.stack.faded(float(self.stack.interfaces[0]))
-        faded = [self.stack.faded(float(z)) for z in self.depths]
-        ways = [2 * top - z if near else z for z, near in zip(faded, self.split, strict=True)]
-        return np.array([self.cut if way * self.cut <= self.fall else self.fall / way for way in ways])
-
-    @property
-    def rows(self) -> list[int]:
-        """Depths at which the half-space is split off."""
-        return [row for row, near in enumerate(self.split) if near]
-
-    @property
-    def rows_in(self) -> list[int]:
-        """The layer of each sum."""
-        return [self.where[int(np.flatnonzero(weights)[0])] for weights in self.mean]
-
-    def kernels(self, k: Array) -> tuple[Array, Array]:
-        """What unit loads do, (nz, 4, 2, nk) and (nz, 2, nk), without the half-space where it is split off."""
-        result = transfer(k, self.stack, list(self.depths), [self.below] * len(self.depths))
-        rows = self.rows
-        if rows:
-            alone = transfer(k, self.stack.top, list(self.depths[rows]), [False] * len(rows))
-            result.plane[rows] -= alone.plane
-            result.transverse[rows] -= alone.transverse
-        return result.plane, result.transverse
-
-    def plane(self, row: int) -> ElasticPlane:
-        """One of its sums, with its table if that was made before."""
-        columns = np.flatnonzero(self.mean[row])
-        parts = tuple((float(self.mean[row, k]), float(self.depths[k]), self.split[k]) for k in columns)
-        return _plane(self.stack, parts, self.where[columns[0]], self.below, (self.fall, self.cut))
-
-
-@lru_cache(maxsize=256)
-def _plane(
-    stack: Stack, parts: tuple[tuple[float, float, bool], ...], layer: int, below: bool, ends: tuple[float, float]
-) -> ElasticPlane:
-    """A sum over depths in a layer. parts: weight, depth, and whether the half-space is split off; fall, cut."""
-    weights, depths, split = (list(each) for each in zip(*parts, strict=True))
-    layout = _Layout(
-        (), stack, np.array(depths), [layer] * len(parts), below, split, ends[0], np.array([weights]), ends[1]
-    )
-
-    def kernels(k: Array) -> tuple[Array, Array]:
-        plane, transverse = layout.kernels(k)
-        return np.tensordot(weights, plane, axes=1), np.tensordot(weights, transverse, axes=1)
-
-    lift = None if stack.upright_of(layer) is None else stack.lift_of(layer)
-    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit.max()), lift)
-
-
-@dataclass(frozen=True, eq=False)
 class _Top:
     """The half-space of the top layer in a view, under loads that are seen together.
 
@@ -282,7 +175,7 @@ class _Top:
     view: View
     solved: dict[tuple[Any, ...], list[tuple[Array, str]]] = field(default_factory=dict)
 
-    def add(self, fields: Array, load: int, layout: _Layout) -> str:
+    def add(self, fields: Array, load: int, layout: Layout) -> str:
         """Add that of a load to fields (components, rows, my, mx) where it was split off; the method."""
         if not layout.rows:
             return "none"
@@ -308,13 +201,13 @@ class _Top:
 
 
 def _split(
-    layout: _Layout,
+    layout: Layout,
     loads: Sequence[Sequence[GridLoad]],
     number: int,
     pairs: Sequence[tuple[int, int]],
     view: View,
     costs: _Closed,
-) -> _Layout:
+) -> Layout:
     """The layout with the half-space split off where that is cheaper under the first of its loads."""
     first = next((load for load, site in pairs if site == number), None)
     if first is None:
@@ -349,7 +242,7 @@ class _Closed:
         return self.solved[key]
 
 
-def _worth_splitting(loads: Sequence[GridLoad], layout: _Layout, view: View, closed: Array) -> list[bool]:
+def _worth_splitting(loads: Sequence[GridLoad], layout: Layout, view: View, closed: Array) -> list[bool]:
     """Where the half-space is split off: not at depths where the waves alone cost less than its closed form.
 
     closed: of the closed form at each depth.
@@ -380,7 +273,7 @@ def _rules(
     )
 
 
-def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> Array:
+def _under_discs(discs: Sequence[UniformDisc], layout: Layout, view: View) -> Array:
     """Fields (nz, components, my, mx) of discs by Hankel's integrals."""
     widest = max(max(np.abs(view.x - disc.x).max(), np.abs(view.y - disc.y).max()) + disc.radius for disc in discs)
     if layout.limit.max() * widest > _MOST_ALONG:
@@ -398,7 +291,7 @@ def _under_discs(discs: Sequence[UniformDisc], layout: _Layout, view: View) -> A
 
 
 def _under_cells(
-    loads: Sequence[Sequence[GridLoad]], layouts: Sequence[_Layout], pairs: Sequence[tuple[int, int]], view: View
+    loads: Sequence[Sequence[GridLoad]], layouts: Sequence[Layout], pairs: Sequence[tuple[int, int]], view: View
 ) -> list[Array]:
     """Fields (components, rows, my, mx) of pairs of a gridded load and a layout, by wavenumbers both ways."""
     used = [layouts[site] for site in sorted({site for _, site in pairs})]
@@ -434,7 +327,7 @@ def _cells(loads: Sequence[GridLoad]) -> list[Cells]:
     ]
 
 
-def _too_many(layout: _Layout, reach: float, needed: str, most: float) -> str:
+def _too_many(layout: Layout, reach: float, needed: str, most: float) -> str:
     worst, top = float(layout.depths[int(np.argmax(layout.limit))]), float(layout.stack.interfaces[0])
     return (
         f"depth {worst:g} m under a top layer of {top:g} m with points up to {reach:g} m from "

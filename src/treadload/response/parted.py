@@ -25,7 +25,8 @@ from treadload.kernels.layers.synthesis import READING
 from treadload.pavement import Parted, Pavement
 from treadload.pavement.stack import stack_of
 from treadload.response.half_space import EvaluationGrid, half_space_response
-from treadload.response.layered import Site, View, layered_responses
+from treadload.response.layered import View, layered_responses
+from treadload.response.layout import Site
 from treadload.response.loads import SurfaceLoad
 
 # Cells are so many to the depth of the face, and at most so large, m. First they are this much larger, which tells

@@ -21,7 +21,8 @@ from treadload.materials.kinds import Solid
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS, tensor_fields
 from treadload.response.half_space import EvaluationGrid, half_space_response
-from treadload.response.layered import Site, View, layered_responses
+from treadload.response.layered import View, layered_responses
+from treadload.response.layout import Site
 from treadload.response.loads import SurfaceLoad
 from treadload.response.material import Windows, spread_over, windows
 from treadload.response.moving import MovingFields, at_speed, moving_response

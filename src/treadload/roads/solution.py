@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
@@ -24,18 +23,14 @@ from treadload.roads.drop_histories import DropHistories
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.scatter import scatter_of
 from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
+from treadload.roads.summary import depth_row, deviation_in_words, load_classes, reason_rows, undecided_rows
 from treadload.roads.uncertainty import SensorError
-from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, modulus_of, poisson_of
+from treadload.roads.unknowns import Unknowns, layer_names, modulus_of, poisson_of
 from treadload.rows import Row, row
 from treadload.variables import modulus_in_words
 
-# Loads that differ by less than this part belong to one height of drop.
-_SAME_LOAD = 0.12
 # Moduli that change by more than this part from the least load to the largest are named.
 _CHANGES = 0.15
-_LISTED = 5
-# Deviations of ln E above this are factors rather than parts.
-_WIDE = 0.4
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,10 +161,10 @@ class Backcalculation(BaseResult, group="backcalculation"):
             misfit = data["basin_misfit"].to_numpy()[good]
             rows.append(row("basin_misfit", float(np.median(misfit)), note=f"largest {100 * misfit.max():.2g} %"))
         rows.append(row("sensor_error", str(data.attrs["sensor_error"])))
-        rows.append(row("stiff_depth", *_depth(data, good)))
-        rows += _listed(data, status == FLAGGED, "flagged")
-        rows += _listed(data, status == REFUSED, "refused")
-        rows += _undecided(data)
+        rows.append(depth_row(data, good))
+        rows += reason_rows(data, status == FLAGGED, "flagged")
+        rows += reason_rows(data, status == REFUSED, "refused")
+        rows += undecided_rows(data)
         if self.stats:
             rows.append(row("solved", "{basins} basins in {seconds:.1f} s".format(**self.stats)))
         return tuple(rows)
@@ -193,24 +188,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
         return rows
 
 
-_NAMES, _LEAVE = re.compile(" and |, "), "these data leave "
 _STATUS = {"fitted": FITTED, "flagged": FLAGGED, "refused": REFUSED}
-
-
-def deviation_in_words(deviation: float) -> str:
-    """A standard deviation of ln E."""
-    return (
-        f"± {100 * deviation:.2g} %" if deviation < _WIDE else f"times or over {math.exp(min(deviation, 20.0)):.2g}"
-    )
-
-
-def load_classes(loads: Array, good: Array) -> list[tuple[float, Array]]:
-    """Drops by their height: median load, N, and numbers of the drops, of those that are good."""
-    drops = np.flatnonzero(good)
-    order = drops[np.argsort(loads[drops])]
-    ordered = loads[order]
-    cuts = np.flatnonzero(np.diff(ordered) > _SAME_LOAD * ordered[:-1]) + 1
-    return [(float(np.median(loads[part])), np.sort(part)) for part in np.split(order, cuts)]
 
 
 def solution(
@@ -343,60 +321,3 @@ def _warnings(basins: Basins | MovingBasins | DropHistories, unknowns: Unknowns,
     if waits and missing:
         texts.append(f"{missing} drops have no asphalt temperature: their moduli are not corrected for it")
     return tuple(texts)
-
-
-def _depth(data: xr.Dataset, good: Array) -> tuple[float | str]:
-    depth = data["stiff_depth"].to_numpy()[good]
-    if not np.isfinite(depth).any():
-        return ("none: the last layer is a half-space",)
-    if DEPTH not in data["unknown"].to_numpy():
-        return (f"{float(np.nanmedian(depth)):.4g} m below the surface",)
-    return (f"{float(np.nanmedian(depth)):.4g} m below the surface in the median, sought",)
-
-
-def _listed(data: xr.Dataset, chosen: Array, key: str) -> list[Row]:
-    """Rows of the reasons, those of several basins counted."""
-    by_kind: dict[str, list[tuple[str, str]]] = {}
-    for basin in np.flatnonzero(chosen):
-        for text in str(data["reason"].to_numpy()[basin]).split("; "):
-            # Numbers differ from basin to basin; what is wrong stands before the colon.
-            by_kind.setdefault(text.partition(":")[0], []).append((str(data["station"].to_numpy()[basin]), text))
-    rows = []
-    for kind, entries in by_kind.items():
-        if len(entries) == 1:
-            rows.append(row(key, f"station {entries[0][0]}: {entries[0][1]}"))
-        else:
-            rows.append(row(key, f"{kind}: {len(entries)} basins, at {_stations([name for name, _ in entries])}"))
-    return rows
-
-
-def _undecided(data: xr.Dataset) -> list[Row]:
-    """A row for each unknown that some basins leave undecided."""
-    texts = [str(text) for text in data["undecided"].to_numpy()]
-    stations = [str(name) for name in data["station"].to_numpy()]
-    if len(texts) == 1:
-        return [row("undecided", text) for text in texts[0].split("; ") if text]
-    rows = []
-    for name in map(str, data["unknown"].to_numpy()):
-        # The names stand between these words.
-        among = [
-            any(
-                name in _NAMES.split(part.partition(" undecided")[0].removeprefix(_LEAVE))
-                for part in text.split("; ")
-            )
-            for text in texts
-        ]
-        at = [station for station, named in zip(stations, among, strict=True) if named]
-        if at:
-            rows.append(
-                row(
-                    "undecided", f"{name}, alone or with others: {len(at)} of {len(texts)} basins, at {_stations(at)}"
-                )
-            )
-    return rows
-
-
-def _stations(names: list[str]) -> str:
-    distinct = list(dict.fromkeys(names))
-    more = "" if len(distinct) <= _LISTED else f" and {len(distinct) - _LISTED} more stations"
-    return ", ".join(distinct[:_LISTED]) + more

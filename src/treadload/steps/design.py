@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from treadload.case import Case
 from treadload.case.description import Description
-from treadload.contact.solve import DEFAULT_SPACING
+from treadload.contact.contact_grid import DEFAULT_SPACING
 from treadload.errors import InputError
 from treadload.life.contacts import Contacts, Progress
 from treadload.life.design import Design

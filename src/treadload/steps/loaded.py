@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from treadload.case import Case
 from treadload.contact import Contact, Enveloped, envelop, solve_contact
-from treadload.contact.solve import NO_OFFSET
+from treadload.contact.contact_grid import NO_OFFSET
 from treadload.damage import Verdict, assess
 from treadload.damage.two_grids import COARSER, check_two_grids, known_on_its_cells, solving_coarser
 from treadload.damage.verdict import with_error

@@ -10,8 +10,8 @@ import numpy as np
 
 from treadload.case import Case
 from treadload.contact.bodies.choose import Pair
+from treadload.contact.contact_grid import place
 from treadload.contact.relief import above
-from treadload.contact.solve import place
 from treadload.grid import Grid
 from treadload.kernels import fft
 from treadload.pavement import Pavement

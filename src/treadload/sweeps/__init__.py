@@ -1,9 +1,10 @@
 """Studies of many cases: which, where they are solved, where their results are kept."""
 
 from treadload.sweeps.cluster import SchedulerLost
-from treadload.sweeps.design import Design, Input, bounds_of, over_points, sampled
+from treadload.sweeps.design import Design, Input
 from treadload.sweeps.network import Network, Sections, read_sections, solve_network
 from treadload.sweeps.plan import plan_sweep
+from treadload.sweeps.sampling import bounds_of, over_points, sampled
 from treadload.sweeps.screening import Morris, Sobol, Tornado, morris, sobol, tornado
 from treadload.sweeps.sweep import Sweep, causes_of, open_sweep, sweep
 from treadload.sweeps.tables import table_of

@@ -19,9 +19,8 @@ from treadload.variables import VARIABLES
 
 CASE = "case"
 """Dimension of cases that stand in a list."""
-METHODS = ("sobol", "latin", "random")
 # More cases than a study can hold in one table of scalars.
-_MOST = 10_000_000
+MOST_CASES = 10_000_000
 # Of a list of cases, read before any is solved.
 _TRIED = 64
 ROW = "row"
@@ -164,7 +163,7 @@ class Design:
                 (str(entry["name"]), str(entry["key"]), tuple(map(str, entry["dims"])), list(entry["values"]))
                 for entry in document["inputs"]
             ]
-            if min(sizes.values(), default=0) < 1 or math.prod(sizes.values()) > _MOST:
+            if min(sizes.values(), default=0) < 1 or math.prod(sizes.values()) > MOST_CASES:
                 raise ValueError("sizes of its dimensions")
             units = keys_of(case)
             inputs = []
@@ -189,7 +188,7 @@ def product(case: Case, vary: Mapping[str, object]) -> Design:
     columns = {name: listed_values(name, values) for name, values in vary.items()}
     if not columns:
         raise InputError("nothing is varied; give keys and values, such as {'rolling.friction': [0.3, 0.5, 0.7]}")
-    return _checked(case, {name: ((name,), objects(values)) for name, values in columns.items()})
+    return checked_design(case, {name: ((name,), objects(values)) for name, values in columns.items()})
 
 
 def listed(
@@ -216,7 +215,7 @@ def listed(
         in_a_word(f"id_{name}" if name in taken else name): tuple(values) for name, values in (labels or {}).items()
     }
     columns = {name: ((CASE,), objects([row[name] for row in rows])) for name in names}
-    return _checked(case, columns, faults=faults or {}, labels=named)
+    return checked_design(case, columns, faults=faults or {}, labels=named)
 
 
 def from_dataset(case: Case, data: xr.Dataset) -> Design:
@@ -230,56 +229,7 @@ def from_dataset(case: Case, data: xr.Dataset) -> Design:
     columns = {
         name: (tuple(map(str, data[name].dims)), objects_like(data[name].to_numpy().astype(object))) for name in names
     }
-    return _checked(case, columns, tuple(map(str, data.dims)))
-
-
-def sampled(
-    case: Case, ranges: Mapping[str, tuple[object, object]], count: int, *, method: str = "sobol", seed: int = 0
-) -> Design:
-    """Cases spread over ranges, over the dimension "case".
-
-    ranges: key → (low, high), in SI units or with their units. count: of the cases. method: "sobol", a scrambled
-    Sobol sequence, best at powers of two; "latin", a Latin hypercube; "random". seed: of the scrambling; the same
-    gives the same cases. Raises InputError.
-    """
-    if method not in METHODS:
-        raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
-    if not 1 <= count <= _MOST:
-        raise InputError(f"a sample has 1 to {_MOST} cases, got {count}")
-    # Its import takes as long as that of all the rest.
-    from scipy.stats import qmc
-
-    bounds = bounds_of(case, ranges)
-    unit = (
-        np.random.default_rng(seed).random((count, len(bounds)))
-        if method == "random"
-        else (qmc.Sobol if method == "sobol" else qmc.LatinHypercube)(len(bounds), rng=seed).random(count)
-    )
-    low, high = (np.array(ends) for ends in zip(*bounds.values(), strict=True))
-    return over_points(case, list(bounds), low + unit * (high - low))
-
-
-def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
-    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
-    columns = {name: ((CASE,), objects(points[:, k].tolist())) for k, name in enumerate(names)}
-    return _checked(case, columns)
-
-
-def bounds_of(case: Case, ranges: Mapping[str, tuple[object, object]]) -> dict[str, tuple[float, float]]:
-    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
-    if not ranges:
-        raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
-    bounds = {}
-    for name, ends in ranges.items():
-        low_high = listed_values(name, ends)
-        if len(low_high) != 2:
-            raise InputError(f"a sample of {name} needs its low and high end, got {len(low_high)} values")
-        design = product(case, {name: low_high})
-        if not design.inputs[0].is_number:
-            raise InputError(f"a sample needs numbers, and {name} is {low_high[0]!r}; list its values instead")
-        low, high = (float(value) for value in design.inputs[0].labels)
-        bounds[name] = (min(low, high), max(low, high))
-    return bounds
+    return checked_design(case, columns, tuple(map(str, data.dims)))
 
 
 def in_si(case: Case, values: Mapping[str, object]) -> dict[str, object]:
@@ -291,7 +241,7 @@ def in_si(case: Case, values: Mapping[str, object]) -> dict[str, object]:
     }
 
 
-def _checked(
+def checked_design(
     case: Case,
     columns: Mapping[str, tuple[tuple[str, ...], np.ndarray]],
     dims: tuple[str, ...] | None = None,
@@ -314,8 +264,10 @@ def _checked(
         dim: next(values.shape[dims_of.index(dim)] for dims_of, values in columns.values() if dim in dims_of)
         for dim in dims
     }
-    if math.prod(sizes.values()) > _MOST:
-        raise InputError(f"the study has {math.prod(sizes.values())} cases, more than {_MOST}; vary less, or sample")
+    if math.prod(sizes.values()) > MOST_CASES:
+        raise InputError(
+            f"the study has {math.prod(sizes.values())} cases, more than {MOST_CASES}; vary less, or sample"
+        )
     units = keys_of(case)
     wrong = None if faults is None else dict(faults)
     at = 0 if wrong is None else _readable(case, keys, columns, wrong)

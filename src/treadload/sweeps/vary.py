@@ -16,7 +16,8 @@ from treadload.case.keys import find_key
 from treadload.errors import InputError, nearest
 from treadload.files import EXCEL
 from treadload.results.sheets import numbered_rows
-from treadload.sweeps.design import ROW, Design, bounds_of, listed, product, sampled
+from treadload.sweeps.design import ROW, Design, listed, product
+from treadload.sweeps.sampling import bounds_of, sampled
 from treadload.tables import NO_DATA, read_table
 
 EXAMPLES = 'friction=0.3:0.9:7, normal_load="20 kN:40 kN:5" or pavement.temperature=[5, 15, 35]'

@@ -10,6 +10,11 @@ from treadload.tire.belt import Belt
 
 Tread = Literal["layer", "ribs"]
 TireMaterial = Elastic | Anisotropic | Prony | Surfaced
+# Why there is no tread = "blocks".
+BLOCKS_ROLL = (
+    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread "
+    "out and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
+)
 
 
 class BodyKeys(TypedDict, total=False):

@@ -22,7 +22,7 @@ from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
 from treadload.tire.cross_section import TreadSection, lateral_obstacle
-from treadload.tire.keywords import BodyKeys, ScanKeys, TireMaterial, Tread
+from treadload.tire.keywords import BLOCKS_ROLL, BodyKeys, ScanKeys, TireMaterial, Tread
 from treadload.tire.library import tread_named
 from treadload.tire.modulus import check_inflation_pressure, modulus_from_inflation
 from treadload.tire.quality import ScanQuality
@@ -37,24 +37,15 @@ from treadload.tire.surface import (
     of_variable,
     read_height_map,
 )
+from treadload.tire.symmetry import is_mirrored
 from treadload.tire.tread import ProfileSurface, TreadProfile
+from treadload.tire.undertread import belt_below_ribs, check_rubber_of_ribs, replaces_thickness
 
 if TYPE_CHECKING:
     import xarray as xr
 
 POISSON_OF_RUBBER = 0.5
-# Why there is no tread = "blocks".
-BLOCKS_ROLL = (
-    "blocks follow from lateral grooves, of the profile, of a scan or given, and do not roll steadily: leave tread "
-    "out and solve the passage of a pitch, with the table [pitch] of a case or solve_pitch(...)"
-)
 RibSides = Literal["free", "filled", "unknown", "none"]
-# Rubber below the deepest groove of a measured tread, m, where nobody gives it: that of the catalogue's 315/80R22.5,
-# 20 mm of tread with grooves of 15 mm.
-UNDERTREAD, _THICKEST_UNDERTREAD = 5e-3, 0.1
-# Cells, m, on which a tread is compared with its mirror image; round-off of their places and of its gap, m.
-_LOOK, _SAME, _SAME_GAP = 2e-3, 1e-6, 1e-9
-_INCOMPRESSIBLE = 0.5
 # A body stiffer than this, Pa, is no rubber, and its ribs do not bulge.
 _STIFFEST_RUBBER = 1e8
 
@@ -118,18 +109,8 @@ class Tire:
 
     def _check_ribs(self) -> None:
         """Refuse ribs that the surface, the undertread or the rubber does not allow. Raises InputError."""
-        if self.undertread is not None and not 0 <= self.undertread <= _THICKEST_UNDERTREAD:
-            raise InputError(
-                f"undertread must lie between 0 and {_THICKEST_UNDERTREAD:g} m, got {self.undertread:g} m; it is the "
-                "rubber below the deepest groove, a few millimetres"
-            )
         assert self.belt is not None
-        poisson = self.belt.tread.poisson
-        if poisson >= _INCOMPRESSIBLE:
-            raise InputError(
-                f"ribs need a Poisson's ratio below {_INCOMPRESSIBLE:g}, got {poisson:g}: give the tread of the belt "
-                "Elastic(modulus, 0.495); rubber has 0.49 to 0.4999"
-            )
+        check_rubber_of_ribs(self.belt, self.undertread)
         if self.cross_section is None:
             raise InputError(
                 f"ribs: the grooves of a {type(self.surface).__name__} are not known; give a TreadProfile, a scan or "
@@ -294,19 +275,13 @@ class Tire:
         """True where the undertread of ribs makes the thickness of the tread, in place of the belt's own."""
         if self.tread != "ribs":
             return False
-        section = self.cross_section
-        return self.undertread is not None or (section is not None and section.measured)
+        return replaces_thickness(self.cross_section, self.undertread)
 
     @property
     def _belt_below_ribs(self) -> Belt:
         """The belt with the thickness of tread that the undertread leaves; its neutral line stays where it is."""
-        belt, section = self.belt, self.cross_section
-        assert belt is not None
-        if section is None or not self.has_undertread:
-            return belt
-        thickness = section.deepest + (UNDERTREAD if self.undertread is None else self.undertread)
-        arm = max(0.0, thickness - (belt.tread_thickness - belt.arm))
-        return replace(belt, tread_thickness=thickness, arm=arm)
+        assert self.belt is not None
+        return belt_below_ribs(self.belt, self.cross_section, self.undertread) if self.tread == "ribs" else self.belt
 
     @property
     def elastic(self) -> Elastic | Anisotropic | Surfaced | InflatedBelt:
@@ -409,16 +384,7 @@ class Tire:
 
 @lru_cache(maxsize=32)
 def _is_symmetric(tire: Tire) -> bool:
-    """Whether a tread that is not a scan is its own mirror image."""
-    surface = tire.surface
-    if surface.quality is not None:
-        return False
-    length, width = surface.extent
-    grid = surface.fixed_grid or Grid.on_lattice(0.8 * length, 0.9 * width, _LOOK)
-    if abs(grid.y[0] + grid.y[-1]) > _SAME * grid.dy:
-        return False
-    gap = surface.height_map(grid)
-    return bool(np.allclose(gap, gap[::-1], rtol=0, atol=_SAME_GAP, equal_nan=True))
+    return is_mirrored(tire.surface)
 
 
 def _cell(spacing: float | Sequence[float] | None) -> tuple[float, float] | None:

@@ -16,13 +16,13 @@ import numpy as np
 from treadload.contact.bodies.belt import BeltSheet, BeltString
 from treadload.contact.bodies.block_tables import BlockTable, block_table
 from treadload.contact.bodies.body import Body, Offsets, Sum
-from treadload.contact.bodies.influence import Influence, coupling_of
+from treadload.contact.bodies.influence import Influence
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.gridding.convolution import Padding
 from treadload.kernels.gridding.patches import Patch, Patches, PatchInverse
-from treadload.kernels.gridding.strips import StripInverse, Strips
+from treadload.kernels.gridding.strips import StripInverse, Strips, coupling_of
 from treadload.kernels.sections import FaceCells
 from treadload.kernels.sections.blocks import is_inside
 from treadload.materials import Elastic

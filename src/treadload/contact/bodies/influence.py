@@ -10,12 +10,13 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from treadload.contact.bodies.body import Body, Offsets, Rows, Strip, Waves
+from treadload.contact.bodies.kernel_spectra import KernelSpectra
 from treadload.errors import InputError
 from treadload.kernels import fft
 from treadload.kernels.arrays import Array, BoolArray, ComplexArray
 from treadload.kernels.complementarity.coulomb import four
 from treadload.kernels.gridding.convolution import Convolution, Padding
-from treadload.kernels.gridding.strips import StripInverse, Strips
+from treadload.kernels.gridding.strips import StripInverse, Strips, coupling_of
 
 # Waves that a patch holds, at which the coupling of pressure and shear is looked at.
 _WAVES, _DIRECTIONS = 64, 48
@@ -193,7 +194,7 @@ class Influence:
         if self.symmetric and self.mirrored:
             return Convolution(self.padding, self.padding.even_spectrum(self._normal_quadrant))
         return Convolution(
-            self.padding, self._spectra(self.padding, lambda at: self.pair.normal(at)[None], ((1, 1),))[0]
+            self.padding, self._spectra.on(self.padding, lambda at: self.pair.normal(at)[None], ((1, 1),))[0]
         )
 
     def normal_on(self, shape: tuple[int, int], real: DTypeLike) -> Convolution:
@@ -225,12 +226,7 @@ class Influence:
         Real for symmetric operators. Of a pair that is not mirrored (4, …), with u_y by q_x as the fourth.
         Raises InputError where a body drifts under shear.
         """
-
-        def computed() -> tuple[Symbols, ...]:
-            symbols = self._spectra(padding, self.pair.tangential, ((1, 1), (1, 1), (-1, -1)))
-            return (symbols if self.mirrored else self._leaning(symbols, self._tilted(padding)[0]),)
-
-        return self._once("tangential", padding.shape, computed)[0]
+        return self._once("tangential", padding.shape, lambda: (self._spectra.tangential(padding),))[0]
 
     def self_influence(self, *, rolls: bool) -> float:
         """Displacement difference u_x of a cell by a unit shear on itself, m/Pa; u_x(x) - u_x(x + dx) if it rolls."""
@@ -294,18 +290,11 @@ class Influence:
 
     def tangential_ahead(self, distance: float) -> ComplexArray:
         """`tangential` at a distance ahead of the cells along x, m, in `padding`."""
-        symbols = self._spectra_of(self.padding, self.pair.tangential, (1, 1, -1), distance)
-        if self.mirrored:
-            return symbols
-        return self._leaning(symbols, self._spectra_of(self.padding, self.pair.tilted, (1, 1, 1), distance)[0])
+        return self._spectra.tangential_ahead(self.padding, distance)
 
     def coupling_ahead(self, distance: float) -> tuple[ComplexArray, ComplexArray]:
         """Symbols (2, …) of u_n by q and of u by p at a distance ahead of the cells along x, m, in `padding`."""
-        k = self._spectra_of(self.padding, self.pair.coupling, (1, -1), distance)
-        if self.mirrored:
-            return k, -k
-        e = self._spectra_of(self.padding, self.pair.tilted, (1, 1, 1), distance)[1:]
-        return k + e, e - k
+        return self._spectra.coupling_ahead(self.padding, distance)
 
     @cached_property
     def _normal_quadrant(self) -> Array:
@@ -315,7 +304,11 @@ class Influence:
     @cached_property
     def _normal_kernel(self) -> Array:
         """The kernel of `normal` of a pair that is not mirrored, at the wrapped offsets of `padding`."""
-        return self._everywhere(self.padding, self.pair.normal, 0.0)
+        return self._spectra.wrapped(self.padding, self.pair.normal, 0.0)
+
+    @property
+    def _spectra(self) -> KernelSpectra:
+        return KernelSpectra(self.pair, self.dx, self.dy)
 
     @cached_property
     def _waves(self) -> Waves:
@@ -323,15 +316,7 @@ class Influence:
 
     def _coupling(self, padding: Padding) -> tuple[Symbols, ...]:
         """Symbols (2, my, mx // 2 + 1) of u_n by q and of u by p, m/Pa."""
-
-        def computed() -> tuple[Symbols, ...]:
-            k = self._spectra(padding, self.pair.coupling, ((-1, 1), (1, -1)))
-            if self.mirrored:
-                return k, -k
-            e = self._tilted(padding)[1:]
-            return k + e, e - k
-
-        return self._once("coupling", padding.shape, computed)
+        return self._once("coupling", padding.shape, lambda: self._spectra.coupling(padding))
 
     def _once(
         self, name: str, shape: tuple[int, int], compute: Callable[[], tuple[Symbols, ...]]
@@ -357,72 +342,6 @@ class Influence:
         except TypeError:
             # A body that cannot be hashed.
             return {}
-
-    def _tilted(self, padding: Padding) -> Array | ComplexArray:
-        """Symbols (3, my, mx // 2 + 1) of a, e_x, e_y, m/Pa."""
-        return self._spectra(padding, self.pair.tilted, ((-1, 1), (1, 1), (1, 1)))
-
-    def _leaning(self, symbols: Array | ComplexArray, a: Array | ComplexArray) -> ComplexArray:
-        """Symbols xx, yy, xy, yx of the displacement by shear with what a tilted grain adds."""
-        xx, yy, xy = symbols
-        return np.array([xx, yy, xy + a, xy - a])
-
-    def _spectra(
-        self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[tuple[int, int], ...]
-    ) -> Array | ComplexArray:
-        """Spectra of kernels with these parities along x and y, +1 even, -1 odd; along y only if not symmetric.
-
-        Of pairs that are not mirrored only the product of both parities is what the kernels have.
-        """
-        if not self.symmetric:
-            return self._spectra_of(padding, kernels, tuple(along_y for _, along_y in parities))
-        if not self.mirrored:
-            whole = padding.spectrum(self._everywhere(padding, kernels, 0.0))
-            # Half way round, where plus and minus meet, no pair of cells is: the parity holds there, too.
-            return np.array(
-                [term.real if x == y else 1j * term.imag for term, (x, y) in zip(whole, parities, strict=True)]
-            )
-        quadrants = kernels(Offsets(*padding.quadrant, self.dx, self.dy))
-        if all(along_x == along_y for along_x, along_y in parities):
-            # Even in both directions, or odd in both: real. Columns lie side by side.
-            spectra = [
-                (padding.even_spectrum if along > 0 else padding.odd_spectrum)(quadrant).T
-                for quadrant, (along, _) in zip(quadrants, parities, strict=True)
-            ]
-            return np.array(spectra).transpose(0, 2, 1)
-        wrapped = zip(quadrants, parities, strict=True)
-        return np.array([padding.spectrum(padding.wrap(quadrant, *parity)) for quadrant, parity in wrapped])
-
-    def _spectra_of(
-        self, padding: Padding, kernels: Callable[[Offsets], Array], parities: tuple[int, ...], distance: float = 0.0
-    ) -> ComplexArray:
-        """Spectra of kernels that have a parity along y only, at a distance ahead of the cells' centres, m."""
-        if not self.mirrored:
-            return padding.spectrum(self._everywhere(padding, kernels, distance))
-        my, mx = padding.shape
-        behind = mx - 1 - mx // 2
-        at = Offsets(my // 2 + 1, mx, self.dx, self.dy, distance - behind * self.dx)
-        offset = fft.fftfreq(my, 1 / my).round().astype(int)
-        spectra = []
-        for half, parity in zip(kernels(at), parities, strict=True):
-            # Half way round, plus and minus meet: an odd kernel has no value there.
-            sign = np.where(offset < 0, parity, 1) * np.where((2 * np.abs(offset) == my) & (parity < 0), 0, 1)
-            spectra.append(padding.spectrum(np.roll(half, -behind, axis=-1)[np.abs(offset)] * sign[:, None]))
-        return np.array(spectra)
-
-    def _everywhere(self, padding: Padding, kernels: Callable[[Offsets], Array], distance: float) -> Array:
-        """Kernels (…, my, mx) without parities on the wrapped offsets, at a distance ahead of the cells, m."""
-        behind_y, behind_x = (m - 1 - m // 2 for m in padding.shape)
-        at = Offsets(*padding.shape, self.dx, self.dy, distance - behind_x * self.dx, -behind_y * self.dy)
-        return np.roll(kernels(at), (-behind_y, -behind_x), axis=(-2, -1))
-
-
-def coupling_of(table: Array) -> float:
-    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a compliance (3 n, 3 n) of u_x, u_y, u_n by q_x, q_y, p."""
-    split = 2 * len(table) // 3
-    shear, normal = np.linalg.cholesky(table[:split, :split]), np.linalg.cholesky(table[split:, split:])
-    coupling = np.linalg.solve(shear, np.linalg.solve(normal, table[split:, :split]).T)
-    return float(np.linalg.norm(coupling, 2))
 
 
 def operators(shape: tuple[int, int], dx: float, dy: float, pair: Body, first_y: float | None = None) -> Influence:

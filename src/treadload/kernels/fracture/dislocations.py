@@ -79,27 +79,12 @@ def _at_once(slip: float) -> float:
     return math.inf if slip > 0 else 0.0
 
 
-def edge_stress(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
+def edge_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
     """Stress (xx, zz, xz; Burgers vector along x, along z; points, sources), Pa, of edges of strength 1 N/m.
 
-    source, point: (x, z), m, in the layer, z from its top.
+    The part of a plane without end, singular where a point meets a source; to it add those of `edge_images` and
+    `edge_layers`. source, point: (x, z), m, in the layer, z from its top.
     """
-    return (
-        edge_in_the_plane(source, point) + edge_images(section, source, point) + edge_layers(section, source, point)
-    )
-
-
-def screw_stress(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """Stress (xy, yz; points, sources), Pa, of screws of strength 1 N/m; arguments as in `edge_stress`."""
-    return (
-        screw_in_the_plane(source, point)
-        + screw_images(section, source, point)
-        + screw_layers(section, source, point)
-    )
-
-
-def edge_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """The part of `edge_stress` of a plane without end, singular where a point meets a source."""
     x, z = point[0][:, None] - source[0], point[1][:, None] - source[1]
     square = x**2 + z**2
     quart = square**2
@@ -114,13 +99,16 @@ def edge_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -
 
 
 def screw_in_the_plane(source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """The part of `screw_stress` of a plane without end."""
+    """Stress (xy, yz; points, sources), Pa, of screws of strength 1 N/m, arguments as in `edge_in_the_plane`.
+
+    The part of a plane without end; to it add those of `screw_images` and `screw_layers`.
+    """
     x, z = point[0][:, None] - source[0], point[1][:, None] - source[1]
     return np.stack([z, -x]) / (x**2 + z**2)
 
 
 def edge_images(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """The part of `edge_stress` of the layer's two boundaries, each as if a half-space lay beyond it.
+    """The part of the stress of edges of the layer's two boundaries, each as if a half-space lay beyond it.
 
     It is singular where a point and a source meet at a boundary.
     """
@@ -137,7 +125,7 @@ def edge_images(section: Section, source: tuple[Array, Array], point: tuple[Arra
 
 
 def screw_images(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """The part of `screw_stress` of the layer's two boundaries."""
+    """The part of the stress of screws of the layer's two boundaries."""
     x = point[0][:, None] - source[0]
     z, zeta = point[1][:, None], source[1]
     stress = np.zeros((2, *x.shape))
@@ -198,7 +186,7 @@ def _waves(section: Section, z: Array, zeta: Array) -> tuple[Array, Array]:
 
 
 def edge_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """What the layers add to the plane and its images in `edge_stress`: regular where the boundaries are bonded."""
+    """What the layers add to the stress of edges with images: regular where the boundaries are bonded."""
     if len(section.strips) == 1 and not section.rigid:
         return np.zeros((3, 2, len(point[1]), len(source[1])))
     z, zeta = point[1], source[1]
@@ -254,7 +242,7 @@ def _sum(terms: Sequence[tuple[Array, Array]], k: Array, x: Array, at: Array, of
 
 
 def screw_layers(section: Section, source: tuple[Array, Array], point: tuple[Array, Array]) -> Array:
-    """What the layers add to the plane and its images in `screw_stress`."""
+    """What the layers add to the stress of screws in the plane with images."""
     if len(section.strips) == 1 and not section.rigid:
         return np.zeros((2, len(point[1]), len(source[1])))
     z, zeta = point[1], source[1]

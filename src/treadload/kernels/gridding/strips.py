@@ -210,6 +210,14 @@ class StripInverse:
         return spread
 
 
+def coupling_of(table: Array) -> float:
+    """Largest singular value of C_nn^-½ C_nt C_tt^-½ of a compliance (3 n, 3 n) of u_x, u_y, u_n by q_x, q_y, p."""
+    split = 2 * len(table) // 3
+    shear, normal = np.linalg.cholesky(table[:split, :split]), np.linalg.cholesky(table[split:, split:])
+    coupling = np.linalg.solve(shear, np.linalg.solve(normal, table[split:, :split]).T)
+    return float(np.linalg.norm(coupling, 2))
+
+
 def shortened(values: Array | ComplexArray, whole: int, length: int, *, odd: bool) -> Array | ComplexArray:
     """Waves of a kernel that repeats after fewer cells and is that of the longer one as far as it reaches.
 

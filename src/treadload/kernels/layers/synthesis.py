@@ -22,8 +22,9 @@ from functools import lru_cache
 
 import numpy as np
 
-from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.arrays import Array
 from treadload.kernels.gridding.points import Points
+from treadload.kernels.layers.load_spectra import Cells, LoadSpectrum, slope_x, slope_y
 from treadload.kernels.layers.wavenumbers import Table, gauss, tabulated
 
 # Up to this over the length of the problem panels end at so many times their beginning.
@@ -93,21 +94,6 @@ SEARCH = replace(READING, precision=np.float64)
 CRACKS = Accuracy(20.0, 1e-3, 3, 5, np.float32, phase=72.0)
 # The basin around wheels, beyond three deviations of what they load: bending alone, with no edge of a rib.
 BASIN = Accuracy(28.0, 1e-3, 3, 5, np.float32, blur=0.028, phase=72.0)
-
-
-@dataclass(frozen=True, eq=False)
-class Cells:
-    """Load (3, ny, nx), Pa, on cells of dx by dy, m, the first centred at x0, y0, m.
-
-    order: 1: uniform on each cell. 2: bilinear between centres, falling to zero in one cell around.
-    """
-
-    load: Array
-    dx: float
-    dy: float
-    x0: float
-    y0: float
-    order: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -210,7 +196,7 @@ def synthesise_cells(
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
     back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
-    transforms = [_Transform.of(load, ky_all, precision) for load in loads]
+    transforms = [LoadSpectrum.of(load, ky_all, precision) for load in loads]
     sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)), precision)
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
@@ -237,99 +223,16 @@ def synthesise_cells(
     return fields.swapaxes(0, 1)
 
 
-@dataclass(frozen=True, eq=False)
-class _Transform:
-    """A load that goes into wavenumbers: cells of one load in several places along x, (place,), go together.
-
-    parts: the cells, their places, the way into ky, (rows, 2 nky), and what is loaded: the load (3 or 1, rows,
-    columns) and the columns, by number.
-    """
-
-    parts: list[tuple[Cells, list[float], Array, Array, IntArray]]
-    precision: type[np.floating]
-
-    @classmethod
-    def of(cls, loads: Sequence[Cells], ky: Array, precision: type[np.floating]) -> _Transform:
-        """With the way into ky, in a precision."""
-        together: list[tuple[Cells, list[float]]] = []
-        for cells in loads:
-            alike = next((places for group, places in together if _moved_along(group, cells)), None)
-            if alike is None:
-                together.append((cells, [cells.x0]))
-            else:
-                alike.append(cells.x0)
-        sheared = any(cells.load[1:].any() for cells, _ in together)
-        parts: list[tuple[Cells, list[float], Array, Array, IntArray]] = []
-        for block, places in together:
-            # Grooves and the rim of the grid bear nothing.
-            rows, columns = (np.flatnonzero(block.load.any(axis=(0, axis))) for axis in (2, 1))
-            into = _towards(ky, block.dy, block.y0, rows, block.order).astype(precision, copy=False)
-            load = block.load[: 3 if sheared else 1, rows[:, None], columns].astype(precision, copy=False)
-            parts.append((block, places, into, load, columns))
-        return cls(parts, precision)
-
-    def at(self, kx: Array, ky: Array) -> Array:
-        """Cosine and sine parts along x and along y, (3 or 6, 2, 2, nky, nkx).
-
-        Of the pressure, its shears q_x and q_y, ∂x q_x, ∂y q_y and ∂x q_y + ∂y q_x; without shear of the pressure.
-        """
-        sheared = any(len(load) > 1 for *_, load, _ in self.parts)
-        spectrum = np.zeros((6 if sheared else 1, 2, 2, len(ky), len(kx)), self.precision)
-        direct = spectrum[: 3 if sheared else 1]
-        for cells, places, narrow, load, columns in self.parts:
-            wide = sum(_towards(kx, cells.dx, place, columns, cells.order) for place in places)
-            wide = np.asarray(wide, self.precision)
-            for turned, by_x in zip(direct.swapaxes(0, 1), np.split(wide, 2, axis=1), strict=True):
-                turned += (narrow.T @ (load @ by_x)).reshape(turned.shape)
-        if sheared:
-            kx, ky = kx.astype(self.precision, copy=False), ky.astype(self.precision, copy=False)[:, None]
-            _slope_x(spectrum[1], kx, spectrum[3])
-            _slope_y(spectrum[2], ky, spectrum[4])
-            spectrum[5] = _slope_x(spectrum[2], kx) + _slope_y(spectrum[1], ky)
-        return spectrum
-
-
-def _moved_along(cells: Cells, reference: Cells) -> bool:
-    """Whether cells are the same load moved along x."""
-    same = (cells.dx, cells.dy, cells.y0, cells.order) == (reference.dx, reference.dy, reference.y0, reference.order)
-    return same and (cells.load is reference.load or np.array_equal(cells.load, reference.load))
-
-
-def _towards(k: Array, width: float, first: float, cells: IntArray, order: int) -> Array:
-    """Cosine and sine transforms of cells (n,), by number, (n, 2 nk)."""
-    turn = np.outer(first + width * cells, k)
-    # numpy's sinc takes half turns.
-    share = width * np.sinc(k * width / (2 * math.pi)) ** order
-    both: Array = np.concatenate([np.cos(turn) * share, np.sin(turn) * share], axis=1)
-    return both
-
-
 def _back(k: Array, weights: Array, x: Array) -> Array:
     """Matrices (2, nk, mx) from cosine and sine parts to the value at x."""
     turn = np.outer(k, x)
     return np.stack([np.cos(turn), np.sin(turn)]) * weights[:, None]
 
 
-def _slope_x(waves: Array, kx: Array, out: Array | None = None) -> Array:
-    """∂/∂x of cosine and sine parts along x and y (2, 2, nky, nkx)."""
-    out = np.empty_like(waves) if out is None else out
-    np.multiply(waves[1], kx, out=out[0])
-    np.multiply(waves[0], -kx, out=out[1])
-    return out
-
-
-def _slope_y(waves: Array, ky: Array, out: Array | None = None) -> Array:
-    """∂/∂y likewise. ky: (nky, 1)."""
-    out = np.empty_like(waves) if out is None else out
-    np.multiply(waves[:, 1], ky, out=out[:, 0])
-    np.multiply(waves[:, 0], -ky, out=out[:, 1])
-    return out
-
-
 def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, sources: Sequence[int]) -> Array:
     """Fields in wavenumbers, (2, n, 2, nky, nkx): cosine and sine parts along x, the sources, the parts along y.
 
-    spectrum: of the load, see `_Transform.at`. radial: see `ElasticPlane.radial`. ky: (nky, 1).
+    spectrum: of the load, see `LoadSpectrum.at`. radial: see `ElasticPlane.radial`. ky: (nky, 1).
     """
     pressure = spectrum[0]
     divergence = spectrum[3] + spectrum[4] if len(spectrum) > 1 else None
@@ -353,12 +256,12 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
     make = {
         _EXX: lambda: turned(phi * -(kx * kx), 0, 3),
         _EYY: lambda: turned(phi * -(ky * ky), 0, 4),
-        _GXY: lambda: turned(_slope_x(_slope_y(phi, ky), 2 * kx), 0, 5),
-        _FX: lambda: turned(_slope_x(psi, kx), 5, 1),
-        _FY: lambda: turned(_slope_y(psi, ky), 5, 2),
+        _GXY: lambda: turned(slope_x(slope_y(phi, ky), 2 * kx), 0, 5),
+        _FX: lambda: turned(slope_x(psi, kx), 5, 1),
+        _FY: lambda: turned(slope_y(psi, ky), 5, 2),
         _FZ: lambda: joined(9, 8),
-        _UX: lambda: turned(_slope_x(phi, kx), 0, 1),
-        _UY: lambda: turned(_slope_y(phi, ky), 0, 2),
+        _UX: lambda: turned(slope_x(phi, kx), 0, 1),
+        _UY: lambda: turned(slope_y(phi, ky), 0, 2),
         _UZ: lambda: joined(4, 3),
     }
     for place, source in enumerate(sources):

@@ -29,11 +29,6 @@ class ProfileDepth:
     segments: Array
     valid: int
 
-    @property
-    def estimated_texture_depth(self) -> float:
-        """1.1 times the mean profile depth, m: ISO 13473-1's estimate of what a volumetric patch would give."""
-        return 1.1 * self.mean
-
     def __str__(self) -> str:
         return f"MPD {self.mean * 1e3:.3g} mm, {self.valid} of {self.segments.size} segments valid"
 

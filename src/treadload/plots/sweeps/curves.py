@@ -32,6 +32,7 @@ from treadload.plots.kit.style import (
     styled,
 )
 from treadload.plots.sweeps.reading import View, main_readings
+from treadload.plots.sweeps.titles import LETTERS, capital, under
 
 # Lines of one figure, and of how many a legend tells each.
 _LINES, _IN_LEGEND = 12, 6
@@ -41,8 +42,6 @@ _DECADES = 3.0
 _PANELS = 6
 # Share of sliding friction from which its limit is drawn.
 _NEAR = 0.5
-# Letters of a line under a title.
-_WIDE = 62
 
 
 # Results of one page in curves, and inputs that they are drawn against.
@@ -207,7 +206,7 @@ def _draw(
     against: str,
     by: str | None,
     at: Mapping[str, object] | None,
-    letters: int = _WIDE,
+    letters: int = LETTERS,
 ) -> tuple[list[Line2D], Shown | None]:
     """Lines of a result, and what tells them apart; None where there is one."""
     field = view.reading(of)
@@ -383,22 +382,6 @@ def _cross(ax: Axes, x: np.ndarray, colour: object, number: int = 0) -> None:
     if x.size:
         ax.plot(x, np.full(x.shape, 0.025 + 0.032 * number), "x", ms=4.5, mew=1.2, color=colour, clip_on=False,
                 transform=ax.get_xaxis_transform(), zorder=5)  # fmt: skip
-
-
-def under(notes: Sequence[str], letters: int = _WIDE) -> str:
-    """Parts of the line under a title, on as many lines as they need."""
-    lines: list[str] = []
-    for part in (note for note in notes if note):
-        if lines and len(lines[-1]) + len(part) + 2 <= letters * 1.25:
-            lines[-1] += f", {part}"
-        else:
-            lines.append(part)
-    return "\n".join(lines)
-
-
-def capital(words: str) -> str:
-    """Words with a capital in front."""
-    return words[:1].upper() + words[1:]
 
 
 def _listed(names: Sequence[str]) -> str:

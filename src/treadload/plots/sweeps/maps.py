@@ -21,8 +21,9 @@ from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import edges, limits
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import INK, MUTED, RULE, figure_of, halo, headline, ink_on, measure, sequential, styled
-from treadload.plots.sweeps.curves import capital, is_logarithmic, logarithmic_tick, solid, under
+from treadload.plots.sweeps.curves import is_logarithmic, logarithmic_tick, solid
 from treadload.plots.sweeps.reading import PLANE, View, main_readings, place_in_words
+from treadload.plots.sweeps.titles import capital, under
 
 # Maps of small multiples, across and down.
 _ACROSS, _DOWN = 5, 4

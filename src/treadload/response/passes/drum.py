@@ -23,7 +23,7 @@ from treadload import variables
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bounds import check_ribs
-from treadload.contact.solve import BorderError, check_border
+from treadload.contact.contact_grid import BorderError, check_border
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.grid import Grid

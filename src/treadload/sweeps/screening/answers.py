@@ -17,7 +17,8 @@ from treadload.case.keys import find_key, keys_of
 from treadload.composing import BaseResult
 from treadload.errors import InputError, how_to_install, nearest
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.sweeps.design import Design, bounds_of
+from treadload.sweeps.design import Design
+from treadload.sweeps.sampling import bounds_of
 from treadload.sweeps.sweep import Sweep, causes_of, sweep
 
 # Share of the trajectories or blocks that may be lost to cases that failed.

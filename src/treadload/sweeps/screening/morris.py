@@ -15,7 +15,7 @@ from treadload.composing import Holds
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row
-from treadload.sweeps.design import over_points
+from treadload.sweeps.sampling import over_points
 from treadload.sweeps.screening.answers import (
     Ranges,
     Screening,

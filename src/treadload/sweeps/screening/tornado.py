@@ -15,7 +15,7 @@ from treadload.case.keys import value_at
 from treadload.composing import Holds
 from treadload.errors import InputError
 from treadload.rows import Row, row
-from treadload.sweeps.design import over_points
+from treadload.sweeps.sampling import over_points
 from treadload.sweeps.screening.answers import Ranges, Screening, Solving, answer, reading_in_words
 
 

@@ -1,0 +1,63 @@
+"""Cases spread over ranges of inputs: a Sobol sequence, a Latin hypercube, random points, or given points."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from treadload.case import Case
+from treadload.errors import InputError
+from treadload.sweeps.columns import listed_values, objects
+from treadload.sweeps.design import CASE, MOST_CASES, Design, checked_design, product
+
+METHODS = ("sobol", "latin", "random")
+
+
+def sampled(
+    case: Case, ranges: Mapping[str, tuple[object, object]], count: int, *, method: str = "sobol", seed: int = 0
+) -> Design:
+    """Cases spread over ranges, over the dimension "case".
+
+    ranges: key → (low, high), in SI units or with their units. count: of the cases. method: "sobol", a scrambled
+    Sobol sequence, best at powers of two; "latin", a Latin hypercube; "random". seed: of the scrambling; the same
+    gives the same cases. Raises InputError.
+    """
+    if method not in METHODS:
+        raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
+    if not 1 <= count <= MOST_CASES:
+        raise InputError(f"a sample has 1 to {MOST_CASES} cases, got {count}")
+    # Its import takes as long as that of all the rest.
+    from scipy.stats import qmc
+
+    bounds = bounds_of(case, ranges)
+    unit = (
+        np.random.default_rng(seed).random((count, len(bounds)))
+        if method == "random"
+        else (qmc.Sobol if method == "sobol" else qmc.LatinHypercube)(len(bounds), rng=seed).random(count)
+    )
+    low, high = (np.array(ends) for ends in zip(*bounds.values(), strict=True))
+    return over_points(case, list(bounds), low + unit * (high - low))
+
+
+def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
+    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
+    columns = {name: ((CASE,), objects(points[:, k].tolist())) for k, name in enumerate(names)}
+    return checked_design(case, columns)
+
+
+def bounds_of(case: Case, ranges: Mapping[str, tuple[object, object]]) -> dict[str, tuple[float, float]]:
+    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
+    if not ranges:
+        raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
+    bounds = {}
+    for name, ends in ranges.items():
+        low_high = listed_values(name, ends)
+        if len(low_high) != 2:
+            raise InputError(f"a sample of {name} needs its low and high end, got {len(low_high)} values")
+        design = product(case, {name: low_high})
+        if not design.inputs[0].is_number:
+            raise InputError(f"a sample needs numbers, and {name} is {low_high[0]!r}; list its values instead")
+        low, high = (float(value) for value in design.inputs[0].labels)
+        bounds[name] = (min(low, high), max(low, high))
+    return bounds
