@@ -522,6 +522,11 @@ _INTERFACES = {
         "position along travel, in the load's frame, where the utilisation of an interface is largest",
     ),
     "parting_y": ("m", "position to the right of travel where the utilisation of an interface is largest"),
+    "parting_shear": ("Pa", "size of the shear stress where the utilisation of an interface is largest"),
+    "parting_pressure": (
+        "Pa",
+        "normal stress where the utilisation of an interface is largest, compression positive",
+    ),
     "parting_passes": ("1", "passes until the bond of an interface fails"),
     "parting_years": ("1", "years until the bond of an interface fails"),
 }

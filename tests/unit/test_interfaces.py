@@ -242,6 +242,40 @@ def test_a_worst_place_at_the_edge_of_the_points_is_told(bonded):
     assert not any("edge" in text for text in assess_bonds(line, [InterfaceStrength(1e6), None]).warnings)
 
 
+def test_points_that_end_before_the_worst_place_are_solved_further():
+    """A response is solved further: what is largest, and where, is that of points which reach far enough."""
+    near, wide = np.linspace(-0.06, 0.06, 9), np.linspace(-0.2, 0.2, 81)
+    strength = [InterfaceStrength(1e6, ANGLE), None]
+    response, whole = (solve_response(BRAKED, road(), depths=road().interfaces, x=x, y=x) for x in (near, wide))
+    verdict, reference = assess_bonds(response, strength, ShearFatigue(-0.2)), assess_bonds(whole, strength)
+    data, known = verdict.dataset.isel(interface=0), reference.dataset.isel(interface=0)
+    largest = float(data["largest_utilisation"])
+    assert largest == pytest.approx(float(known["largest_utilisation"]), rel=2e-3)
+    assert largest > 1.02 * float(data["utilisation"].max())
+    assert abs(float(data["parting_x"]) - float(known["parting_x"])) <= 0.01
+    assert abs(float(data["parting_x"])) > 0.06
+    assert float(data["parting_passes"]) == pytest.approx(largest**-5, rel=1e-9)
+    assert strength[0].utilisation(data["parting_shear"], data["parting_pressure"]) == pytest.approx(largest)
+    (text,) = (text for text in verdict.warnings if "edge of the points" in text)
+    assert "solved further, to 0.3 m beyond them" in text
+    assert f"it is {largest:.3g} at x = {1e3 * float(data['parting_x']):.0f} mm" in text
+    # The numbers of the summary are those of the place, which the map does not have.
+    shown = next(row for row in verdict.rows() if row.key == "interface_shear")
+    assert shown.value == float(data["parting_shear"])
+    assert not any("edge" in text for text in reference.warnings)
+    # Fields alone, without road and loads, are named.
+    (text,) = (t for t in assess_bonds(interface_fields(response), strength).warnings if "edge" in t)
+    assert "solve it further out" in text
+
+
+def test_friction_alone_is_not_followed_into_the_far_field():
+    """Without cohesion the utilisation is a ratio of stresses that both vanish; what counts still feels the load."""
+    response = solve_response(BRAKED, road(), depths=road().interfaces, x=X, y=X)
+    verdict = assess_bonds(response, [InterfaceStrength(0.0, ANGLE), None])
+    shear = verdict.dataset["interface_shear"].isel(interface=0)
+    assert float(verdict.dataset["parting_shear"][0]) >= 1e-3 * float(shear.max())
+
+
 def test_load_scales_the_utilisation_of_a_glued_interface(bonded):
     twice = interface_fields(
         solve_response(

@@ -14,13 +14,13 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds, Source, dataset_of
+from treadload.damage.bond_border import WorstOfBond, worst_of_bond
 from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.validity import warnings_of
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
-from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
 from treadload.pavement import FRICTIONLESS, BondLaw, Pavement
 from treadload.rows import Place, Row, row
@@ -104,7 +104,8 @@ class BondVerdict(BaseResult, group="bonds"):
     """What the strengths of a road's interfaces say of a load.
 
     dataset: the fields of `interface_fields`, utilisation and, with a law, bond_passes (interface, y, x), NaN where
-    no strength is given; largest_utilisation, parting_x, parting_y and parting_passes (interface).
+    no strength is given; largest_utilisation, parting_x, parting_y, parting_passes (interface), parting_shear and
+    parting_pressure, Pa, there.
     strengths: one for each interface, None where not assessed. law: of fatigue, or None. warnings: for the user.
     """
 
@@ -118,7 +119,7 @@ class BondVerdict(BaseResult, group="bonds"):
             "interface_shear interface_pressure utilisation": "interface y x",
         },
         not_nan="largest_utilisation",
-        maybe={"parting_passes": "interface", "bond_passes": "interface y x"},
+        maybe={"parting_passes parting_shear parting_pressure": "interface", "bond_passes": "interface y x"},
         with_field={"law": "parting_passes"},
         labels={"between": "interface"},
         each={"interface": "strengths"},
@@ -144,12 +145,12 @@ class BondVerdict(BaseResult, group="bonds"):
                 rows.append(row("bond_strength", "no strength given", group=name))
                 continue
             x, y = data["parting_x"], data["parting_y"]
-            worst, place = data.sel(x=x, y=y, method="nearest"), Place(float(x), float(y))
+            worst, place = _at_worst(data), Place(float(x), float(y))
             rows += [
                 row("bond_strength", str(strength), group=name),
                 row("largest_utilisation", data["largest_utilisation"], place=place, group=name),
-                row("interface_shear", worst["interface_shear"], group=name),
-                row("interface_pressure", worst["interface_pressure"], group=name),
+                row("interface_shear", worst["shear"], group=name),
+                row("interface_pressure", worst["pressure"], group=name),
             ]
             if self.law is not None:
                 rows.append(row("parting_passes", data["parting_passes"], group=name))
@@ -186,9 +187,12 @@ def assess_bonds(
     those that are not assessed. law: fatigue of the bonds; left out, only the strength is assessed. temperature: of
     the interfaces, °C, one or one for each, for strengths that depend on it.
     x is where the worst place stands in the frame of the load: as a wheel rolls by, every point at that y sees it.
+    Where the largest utilisation lies at the edge of the points of a response, the interface is solved further, as
+    far as the basin reaches, until it lies inside; a warning states the place beyond, or that it still lies at the
+    end. Fields alone cannot be solved further: a warning states the edge.
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
     """
-    source = dataset_of(fields)
+    above, source = fields, dataset_of(fields)
     fields = source if "interface_shear" in source else interface_fields(source)
     count = fields.sizes["interface"]
     by_interface = [strengths] * count if isinstance(strengths, BondStrength) else list(strengths)
@@ -211,20 +215,25 @@ def assess_bonds(
         if at is not None:
             used[k] = at.utilisation(shear[k], pressed[k])
             warnings += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
-    peaks = [_peak(part) for part in used]
-    largest = np.array([part[peak] for part, peak in zip(used, peaks, strict=True)])
-    assessed = ~np.isnan(largest)
-    x, y = fields["x"].to_numpy(), fields["y"].to_numpy()
-    warnings += [
-        f"{_named(fields.isel(interface=k))}: utilisation largest at the edge of the points; solve it further out"
-        for k, peak in enumerate(peaks)
-        if largest[k] > 0 and _on_edge(peak, used[k].shape)
+    x, y, depths = (fields[name].to_numpy() for name in ("x", "y", "depth"))
+    places: list[WorstOfBond | None] = [
+        None if strength is None else worst_of_bond(above, strength, depth, x, y, shear[k], pressed[k])
+        for k, (strength, depth) in enumerate(zip(warmed, depths, strict=True))
     ]
+    warnings += [
+        f"{_named(fields.isel(interface=k))}: {place.sentence}"
+        for k, place in enumerate(places)
+        if place is not None and place.sentence
+    ]
+    values = {
+        name: np.array([math.nan if place is None else getattr(place, name) for place in places])
+        for name in ("utilisation", "x", "y", "shear", "pressure")
+    }
+    largest = values["utilisation"]
     added: dict[str, tuple[tuple[str, ...], Array]] = {
         "utilisation": (_DIMS, used),
         "largest_utilisation": (("interface",), largest),
-        "parting_x": (("interface",), np.where(assessed, [x[column] for _, column in peaks], np.nan)),
-        "parting_y": (("interface",), np.where(assessed, [y[row] for row, _ in peaks], np.nan)),
+        **{f"parting_{name}": (("interface",), values[name]) for name in ("x", "y", "shear", "pressure")},
     }
     if law is not None:
         added["bond_passes"] = (_DIMS, law.allowable_passes(used))
@@ -234,13 +243,13 @@ def assess_bonds(
     return BondVerdict(dataset, tuple(warmed), law, tuple(dict.fromkeys(warnings)))
 
 
-def _peak(used: Array) -> tuple[int, int]:
-    row, column = index_of_largest(used)
-    return row, column
-
-
-def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:
-    return any(size > 2 and at in (0, size - 1) for at, size in zip(peak, shape, strict=True))
+def _at_worst(interface: xr.Dataset) -> dict[str, float]:
+    """Shear and pressure, Pa, where the utilisation is largest; of older files at the nearest point."""
+    names = ("shear", "pressure")
+    if all(f"parting_{name}" in interface for name in names):
+        return {name: float(interface[f"parting_{name}"]) for name in names}
+    near = interface.sel(x=interface["parting_x"], y=interface["parting_y"], method="nearest")
+    return {name: float(near[f"interface_{name}"]) for name in names}
 
 
 def _doubts(strength: BondStrength, pressed: Array) -> list[str]:

@@ -116,9 +116,21 @@ def _in_numbers(interface: xr.Dataset, plan: Plan, row: int, column: int) -> str
     text = f"{float(interface['depth']) * MM:g} mm deep; highest at {place}:\n"
     side = f"under {pressed:.0f} kPa" if pressed >= 0 else f"with {-pressed:.0f} kPa of tension"
     text += f"shear {shear:.0f} kPa {side}"
+    text += _beyond(interface, plan)
     if "parting_passes" in interface:
         text += f"; fails after {power_of_ten(float(interface['parting_passes']))} load repetitions"
     return text
+
+
+def _beyond(interface: xr.Dataset, plan: Plan) -> str:
+    """Where the utilisation is largest if that lies beyond the map, which was solved further then."""
+    if "parting_x" not in interface:
+        return ""
+    x, y = (MM * float(interface[f"parting_{name}"]) for name in "xy")
+    if all(at[0] - 0.1 <= place <= at[-1] + 0.1 for at, place in ((plan.x, x), (plan.y, y))):
+        return ""
+    used = float(interface["largest_utilisation"])
+    return f";\nlarger beyond this map: {used:.2g} at x = {signed(x)}, y = {signed(y)} mm"
 
 
 @styled
