@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO
 from treadload.errors import InputError, WriteError, one_line
 
 if TYPE_CHECKING:
+    import h5netcdf
     import h5py
     import xarray as xr
 
@@ -154,23 +155,50 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
 
 def _tree(path: Path) -> xr.DataTree:
     # The command line writes files and starts without numbers.
+    import h5netcdf
     import h5py
     import xarray as xr
+    from xarray.backends import H5NetCDFStore
 
     # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.
     with h5py.File(path, "r") as probe:
         probe.attrs.get("_nc3_strict")
         _check_links(probe)
+
+    class Remembering(h5py.File):  # type: ignore[misc]
+        """Keeps what it has opened: h5netcdf opens each dataset anew for each of its properties, ninety times."""
+
+        def __init__(self) -> None:
+            super().__init__(path, "r")
+            self.opened: dict[object, object] = {}
+
+        def __getitem__(self, name: object) -> object:
+            if not isinstance(name, str):
+                return super().__getitem__(name)
+            if name not in self.opened:
+                self.opened[name] = super().__getitem__(name)
+            return self.opened[name]
+
     # Units are read by who needs them: none of them is a date.
     with warnings.catch_warnings():
         warnings.filterwarnings("error", _TWICE, UserWarning)
-        with xr.open_datatree(path, engine="h5netcdf", decode_times=False) as tree:
-            loaded: xr.DataTree = tree.load()
+        with Remembering() as file, h5netcdf.File(file, "r", decode_vlen_strings=True, phony_dims="access") as source:
+            groups = {
+                group.name: xr.open_dataset(H5NetCDFStore(source, group=group.name), decode_times=False).load()
+                for group in _groups_of(source)
+            }
+    loaded = xr.DataTree.from_dict(groups)
     # A variable whose dimensions were lost shows when its group is put together.
     for node in loaded.subtree:
         node.to_dataset()
         _replace_texts(node)
     return loaded
+
+
+def _groups_of(group: h5netcdf.Group) -> Iterator[h5netcdf.Group]:
+    yield group
+    for inner in group.groups.values():
+        yield from _groups_of(inner)
 
 
 def _replace_texts(node: xr.DataTree) -> None:

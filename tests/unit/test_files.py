@@ -161,14 +161,14 @@ def test_groups_beyond_all_depth_are_refused(tmp_path):
 def test_a_file_that_changes_while_it_is_read_is_refused(tmp_path, monkeypatch):
     path = tmp_path / "a.nc"
     xr.Dataset({"a": 1.0}).to_netcdf(path, engine="h5netcdf")
-    load = xr.DataTree.load
+    load = xr.Dataset.load
 
-    def changed(tree):
-        loaded = load(tree)
+    def changed(data):
+        loaded = load(data)
         os.utime(path, ns=(1, 1))
         return loaded
 
-    monkeypatch.setattr(xr.DataTree, "load", changed)
+    monkeypatch.setattr(xr.Dataset, "load", changed)
     with pytest.raises(InputError, match="changed while it was read; wait for what writes it"):
         read_tree(path, "NetCDF-4")
 
