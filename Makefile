@@ -34,11 +34,12 @@ $(LIGHT): pyproject.toml constraints.txt | $(BIN)/python
 demo: $(LIGHT)
 	$(BIN)/treadload demo --output demo
 
+# Each process keeps to its files, whose fixtures are solved once.
 test: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m "not slow and not browser"
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not browser"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest -n 2 -m "slow and not browser"
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "slow and not browser"
 
 # needs Chromium: on Debian `apt-get install chromium`
 test-browser: $(STAMP)

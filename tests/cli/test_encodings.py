@@ -49,7 +49,14 @@ WORLDS = {
 }
 
 
-@pytest.mark.parametrize("world", WORLDS)
+@pytest.mark.parametrize(
+    "world",
+    [
+        pytest.param(world, marks=pytest.mark.slow) if world in ("a terminal of old Western Linux", "a pipe under C")
+        else world
+        for world in WORLDS
+    ],
+)  # fmt: skip
 def test_commands_print_in_any_encoding(tmp_path, world):
     changes, encoding, name = WORLDS[world]
     (tmp_path / "case.toml").write_text(COARSE, encoding="utf-8")

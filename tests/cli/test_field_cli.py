@@ -2,6 +2,7 @@
 
 import json
 
+import pytest
 from typer.testing import CliRunner
 
 import treadload as tl
@@ -10,6 +11,7 @@ from treadload.cli.commands import app
 run = CliRunner()
 
 
+@pytest.mark.slow
 def test_a_table_becomes_a_file_and_a_page(tmp_path):
     files = ["-o", str(tmp_path / "x.nc"), "--report", str(tmp_path / "x.html")]
     done = run.invoke(app, ["field", "LTPP", "-q", *files])

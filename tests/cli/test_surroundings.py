@@ -32,7 +32,8 @@ COMMANDS = {
     "scan": "scan wheel.ply -q --units m --spacing 12mm -o scan.nc",
     "calibrate": "calibrate calibrate.toml -q -o calibrate.nc",
 }
-QUICK = ("run", "export", "table", "sweep", "compare")
+# Processes of a study, calibrations and lives are tried by the slow test.
+QUICK = ("run", "export")
 # One command after another in one process, which is told how processes start and whether C writes decimal commas.
 DRIVER = """
 import contextlib, io, json, locale, multiprocessing, os, shlex, sys

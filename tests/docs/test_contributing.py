@@ -154,6 +154,7 @@ def test_a_step_of_a_package_is_swept(road_laws):
     assert 0 < short < long
 
 
+@pytest.mark.slow
 def test_a_step_of_a_package_is_run_by_the_command_opened_in_a_fresh_process_and_reported(road_laws, tmp_path):
     (tmp_path / "case.toml").write_text(STEP, encoding="utf-8")
     source = str(Path(tl.__file__).parents[1])

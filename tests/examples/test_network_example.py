@@ -9,6 +9,7 @@ pytest.importorskip("zarr")
 EXAMPLE = Path(__file__).parents[2] / "examples" / "network" / "run.py"
 
 
+@pytest.mark.slow
 def test_the_network_of_a_county(tmp_path):
     network = runpy.run_path(str(EXAMPLE))["main"](tmp_path)
     assert len(network.ranked) == 10

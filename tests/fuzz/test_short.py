@@ -8,22 +8,22 @@ from fuzz.runner import attack_of, run
 @pytest.mark.parametrize(
     ("kind", "count"),
     [
-        ("cases", 200),
-        ("tables", 200),
+        ("cases", 120),
+        ("tables", 120),
         ("meshes", 20),
         pytest.param("results", 40, marks=pytest.mark.slow),
-        ("footprints", 150),
-        ("textures", 200),
+        ("footprints", 80),
+        ("textures", 100),
         pytest.param("surfaces", 300, marks=pytest.mark.slow),
         pytest.param("clouds", 300, marks=pytest.mark.slow),
         pytest.param("fits", 40, marks=pytest.mark.slow),
-        ("laser", 200),
+        ("laser", 120),
         pytest.param("fringes", 40, marks=pytest.mark.slow),
-        ("contacts", 40),
+        ("contacts", 25),
         pytest.param("stores", 30, marks=pytest.mark.slow),
         ("e57", 25),
-        ("x3p", 200),
-        ("sdf", 200),
+        ("x3p", 100),
+        ("sdf", 100),
         ("xlsx", 8),
         ("pictures", 60),
     ],
@@ -46,7 +46,7 @@ def test_files_of_other_programs_reach_the_reader(kind, count):
     assert tally.words["taken"] >= 0.68 * count
 
 
-@pytest.mark.parametrize("count", [pytest.param(4, id="few"), pytest.param(60, id="some", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("count", [pytest.param(2, id="few"), pytest.param(60, id="some", marks=pytest.mark.slow)])
 def test_no_largest_value_of_a_life_lies_on_a_border_unnoticed(count):
     """1000 of the same seed: none, and 0 lives with the warning; the bound is 5 %."""
     tally = run("random_lives", attack_of("random_lives"), seed=1, indices=range(count))

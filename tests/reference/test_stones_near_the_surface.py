@@ -110,6 +110,7 @@ def test_nothing_is_told_where_nothing_was_tried():
         assert strain_error(*more) > least
 
 
+@pytest.mark.slow
 def test_a_window_tells_the_error_of_its_softest_stones(tmp_path):
     mortar, wide = tl.Elastic(3e9, 0.3), tl.response.Grid.centred(60e-3, 60e-3, 2e-3)
     load = tl.response.GridLoad(wide, np.full((wide.ny, wide.nx), 0.7e6))

@@ -374,6 +374,7 @@ def to_the_end(growth):
 
 
 @pytest.mark.parametrize("trace", ["transverse", "longitudinal"])
+@pytest.mark.slow
 def test_a_crack_under_a_wheel_that_rolls_freely_grows_in_the_basin(trace, monkeypatch):
     growth = straight(trace)
     # Near the wheels the faces are shut: what opens them is the hogging around, which was not read.
@@ -387,6 +388,7 @@ def test_a_crack_under_a_wheel_that_rolls_freely_grows_in_the_basin(trace, monke
     assert to_the_end(straight(trace)) == pytest.approx(to_the_end(growth), rel=0.02)
 
 
+@pytest.mark.slow
 def test_both_directions_grow_side_by_side_from_their_own_first_cracks():
     both = straight("both")
     _, life = rolling()

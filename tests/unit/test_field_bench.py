@@ -89,6 +89,7 @@ def test_mechanics_that_know_nothing_are_refuted(beside):
     assert rows["", "about_mechanics"].value == "drawn"
 
 
+@pytest.mark.slow
 def test_mechanics_that_know_the_roads_are_told():
     """Tables drawn from their predictions: the power is near 1, and trusting it gains on unseen sections."""
     ages = 500 * np.exp(np.random.default_rng(5).standard_normal(len(LTPP)))
@@ -159,6 +160,7 @@ def test_few_sections_are_looked_at_and_not_fitted():
     assert (float(whole["cell_sections"]), float(whole["seen_share"])) == (25, pytest.approx(0.4))
 
 
+@pytest.mark.slow
 def test_sections_without_damage_count_with_a_sentence():
     ages = np.full(len(LTPP), 300.0)
     ages[:4] = np.inf
@@ -184,6 +186,7 @@ def stored():
     return tl.life.read_predictions(LTPP.predictions)
 
 
+@pytest.mark.slow
 def test_ltpp_beside_the_mechanics_of_this_program(stored):
     """Predicted ages that the table brings: the power 1 loses more than the 20 nats of the trial, fitted it is 0."""
     bench = tl.life.field_bench("LTPP", stored)

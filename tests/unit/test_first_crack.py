@@ -168,6 +168,7 @@ def test_the_figure_shows_both_directions_and_what_opens_the_crack():
     assert life.plot.first_crack(criterion="soil").axes[0].get_title(loc="left") == f"First crack: {first}"
 
 
+@pytest.mark.slow
 def test_the_report_of_a_life_states_and_draws_the_first_crack():
     _, life = solved(STIFF, BRAKING)
     report = life_report("case", to_tree([life], title="case")["life"].to_dataset())

@@ -49,6 +49,7 @@ def test_a_wheel_comes_back_from_lines_with_jitter_dropouts_and_tilt(tmp_path, d
     assert rms(tire) < 0.1e-3
 
 
+@pytest.mark.slow
 def test_a_tilt_that_is_not_told_stays_in_the_tread(tmp_path):
     encoder, x, z = profiles(**SMALL, tilt=0.02)
     told, silent = (
@@ -94,6 +95,7 @@ def test_what_leads_on_the_wheel_leads_on_the_road(tmp_path, way):
     assert grid.y[row] == pytest.approx(0.04, abs=5e-3)
 
 
+@pytest.mark.slow
 def test_several_turns_are_averaged_and_a_standing_wheel_is_one_line(tmp_path):
     one = profiles(**SMALL, dropouts=0.0)
     more = [profiles(**SMALL, dropouts=0.0, seed=seed) for seed in (2, 3, 4)]

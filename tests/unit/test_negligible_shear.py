@@ -86,6 +86,7 @@ def test_the_page_draws_none_either():
     assert "at most 0.42 kPa under 1.24 GPa" in field.title
 
 
+@pytest.mark.slow
 def test_shear_of_a_free_wheel_is_real_and_goes_with_the_road(free):
     """(1 - 2ν)/G of the road, below a tire that keeps its volume: twice as much on half of E, none at ν = 0.5."""
     shear, pressure = largest_shear(free), float(free.pressure.max())

@@ -591,7 +591,9 @@ def test_a_dataset_that_cannot_be_read_is_refused_before_it_becomes_a_result(sav
     assert refused >= needed | set(f"{holds.numbers} {holds.texts} {holds.lists} {holds.members}".split())
 
 
-def test_every_result_is_reported(saved, tmp_path):
+def test_every_result_is_reported(saved, tmp_path, monkeypatch):
+    # Pictures of few pixels: whether they can be drawn is what is tried.
+    monkeypatch.setattr("treadload.reporting.pictures._DPI", 30.0)
     result, opened = saved
     page = tl.report(result, tmp_path / "r.html").read_text()
     assert "could not be drawn" not in page

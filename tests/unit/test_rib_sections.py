@@ -132,6 +132,7 @@ def test_a_strip_at_a_wall_carries_the_force_of_its_cell(table):
     assert forced[4, 4] == pytest.approx(plain[4, 4] * 0.75)
 
 
+@pytest.mark.slow
 def test_a_tie_bar_joins_ribs_and_draft_stiffens_them():
     def sideways(**change):
         section = {"floors": (0.005, 0.005, 0.005), "ends": (0.006, 0.006)} | change

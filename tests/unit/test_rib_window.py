@@ -40,6 +40,7 @@ def windows(monkeypatch):
 
 
 # The first contact runs on a window, the second has none; the third has one that is too small.
+@pytest.mark.slow
 def test_the_window_changes_nothing(windows, monkeypatch):
     on_window = rolled()
     assert [solved is not None for solved in windows] == [True]

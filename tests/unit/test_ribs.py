@@ -291,6 +291,7 @@ def test_pressure_and_shear_settle_whatever_is_asked(seed):
         assert solved.normal.pressure.sum() * grid.cell_area == pytest.approx(load, rel=1e-6)
 
 
+@pytest.mark.slow
 def test_a_mirrored_tread_has_mirrored_fields():
     grooves = (Groove(-0.025, 0.012, 0.015, edge_radius=0.002), Groove(0.015, 0.008, 0.012, edge_radius=0.002))
     oblique = replace(NARROW, grooves=grooves)
@@ -315,6 +316,7 @@ def test_cells_of_3_and_of_1_5_mm_both_ways(rolled):
     assert amplitudes(fine) == pytest.approx([0.26, 0.29, 0.29, 0.29, 0.26], rel=0.05)
 
 
+@pytest.mark.slow
 def test_a_tread_without_grooves_is_the_layer():
     smooth = replace(NARROW, grooves=(), shoulder_radius=0.03)
     belt = replace(BELT, tread=tl.Elastic(5.5e6, 0.47))

@@ -97,7 +97,9 @@ def test_other_variables_are_left_to_the_whole_response():
     assert tensors_of_many(question, X, Y, needs=("strain_xx", "principal_strain_1")) is None
 
 
-@pytest.mark.parametrize("at", [None, Points.of(X[[0, 2, 3]], Y)[0]], ids=["grid", "points"])
+@pytest.mark.parametrize(
+    "at", [None, pytest.param(Points.of(X[[0, 2, 3]], Y)[0], marks=pytest.mark.slow)], ids=["grid", "points"]
+)
 @pytest.mark.parametrize("loads", [LOADS[0], LOADS[1], [replace(LOADS[0][0], interpolation="bilinear")]])
 def test_sums_over_depths_are_those_of_the_depths(loads, at):
     """In the waves, in the closed form, under discs, between two bonds, where there are no layers and at a speed."""

@@ -166,6 +166,7 @@ def test_a_step_that_returns_no_result_is_named_with_its_package(install):
     assert "got int" in str(refused.value)
 
 
+@pytest.mark.slow
 def test_a_file_whose_step_is_not_installed_opens_as_data_and_names_the_package(install, tmp_path):
     install(my_steps=({"cells": "my_steps.step:Step_cells"}, step_text("cells")))
     result = tl.run(Case.from_text(case_with("cells")))

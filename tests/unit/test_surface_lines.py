@@ -103,6 +103,7 @@ def test_only_a_tensile_strain_of_the_surface_has_lines():
     assert isinstance(each[0][1], AgedLine)
 
 
+@pytest.mark.slow
 def test_daily_thermal_stress_counts_in_both():
     air = "air = { months = [2, 3, 6, 9, 14, 17, 19, 18, 15, 11, 6, 3] }"
     text = CASE.replace(CASE[CASE.index("months = ") : CASE.index("[traffic]")], f"{air}\nparts_of_day = 1\n")

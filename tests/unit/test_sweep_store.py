@@ -219,6 +219,7 @@ def test_a_full_disk_is_one_sentence_and_keeps_what_is_done(tmp_path, monkeypatc
     assert tl.sweep(case, VARY, store=path).stats["solved"] == 6
 
 
+@pytest.mark.slow
 def test_processes_give_the_same_numbers(tmp_path):
     case = small_case(tmp_path)
     assert same(tl.sweep(case, VARY, fields=FIELDS, jobs=2).dataset, tl.sweep(case, VARY, fields=FIELDS).dataset)

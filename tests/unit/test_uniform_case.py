@@ -27,6 +27,7 @@ def test_the_step_gives_what_the_verb_gives(result):
     assert float(verb.dataset["uniform_area"]) == pytest.approx(32.5e3 / 8.2e5, rel=1e-5)
 
 
+@pytest.mark.slow
 def test_it_is_planned_summed_up_written_opened_reported_and_on_the_page(result, tmp_path):
     case = Case.from_text(TEXT + DEPTHS)
     assert Case.from_text(case.to_toml()) == case

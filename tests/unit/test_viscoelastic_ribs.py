@@ -112,6 +112,7 @@ def test_the_limit_of_slow_rolling_and_resistance():
     assert float(rolling.dataset.approach) < float(rubbery.approach)
 
 
+@pytest.mark.slow
 def test_a_tread_without_grooves_is_the_viscoelastic_layer():
     """As elastic ones are: the free sides at the shoulders are all that differs, and the shoulders are round."""
     smooth = replace(NARROW, grooves=(), shoulder_radius=0.03)
