@@ -19,7 +19,7 @@ from fuzz.runner import attack_of, run
         pytest.param("fits", 40, marks=pytest.mark.slow),
         ("laser", 120),
         pytest.param("fringes", 40, marks=pytest.mark.slow),
-        ("contacts", 25),
+        ("contacts", 40),
         pytest.param("stores", 30, marks=pytest.mark.slow),
         ("e57", 25),
         ("x3p", 100),
