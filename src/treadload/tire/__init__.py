@@ -3,6 +3,7 @@
 from treadload.tire.belt import Belt, InflatedBelt, LateralBelt
 from treadload.tire.grooves import Groove, LateralGrooves, equal_ribs
 from treadload.tire.library import TireMesh, example_mesh
+from treadload.tire.magic_formula import MagicFormula, TireForces
 from treadload.tire.modulus import modulus_from_inflation
 from treadload.tire.quality import GrooveMeasure, ScanQuality
 from treadload.tire.surface import HeightMapSurface, Surface
@@ -18,10 +19,12 @@ __all__ = [
     "InflatedBelt",
     "LateralBelt",
     "LateralGrooves",
+    "MagicFormula",
     "ProfileSurface",
     "ScanQuality",
     "Surface",
     "Tire",
+    "TireForces",
     "TireMesh",
     "TreadProfile",
     "Wear",
