@@ -57,9 +57,9 @@ def main(folder: Path, spacing: float = 6e-3, step: float = 9e-3) -> dict[str, f
 
     # The parted face still bears shear where the wheel presses it together.
     faces = {
-        "bonded": tl.BONDED,
+        "bonded": tl.pavement.BONDED,
         "rubbing": tl.pavement.Parted(RUBBING),
-        "frictionless": tl.FRICTIONLESS,
+        "frictionless": tl.pavement.FRICTIONLESS,
     }
     extension = {}
     for name, bond in faces.items():

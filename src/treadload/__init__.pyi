@@ -30,9 +30,6 @@ from treadload.footprint import compare as compare
 from treadload.life import Design as Design
 from treadload.life import solve_life as solve_life
 from treadload.materials import Elastic as Elastic
-from treadload.pavement import BONDED as BONDED
-from treadload.pavement import FRICTIONLESS as FRICTIONLESS
-from treadload.pavement import Bond as Bond
 from treadload.pavement import Layer as Layer
 from treadload.pavement import Pavement as Pavement
 from treadload.reporting import report as report

@@ -58,7 +58,8 @@ def test_a_delaminated_wearing_course_extends_at_its_underside():
     result = tl.run(case)
     layers = result.road.layers
     bonded, slides = (
-        tl.Pavement([replace(layers[0], bond=bond), *layers[1:]]) for bond in (tl.BONDED, tl.FRICTIONLESS)
+        tl.Pavement([replace(layers[0], bond=bond), *layers[1:]])
+        for bond in (tl.pavement.BONDED, tl.pavement.FRICTIONLESS)
     )
     discs = tl.response.dual_wheels(tl.UniformDisc(0.125, 0.662e6), 0.375)
     under = {"depths": [0.06], "x": [0.0], "y": [0.1875]}

@@ -135,10 +135,12 @@ def random_road(rng: np.random.Generator) -> tl.Pavement:
             [0.5, 0.0, 0.5 - 10 ** rng.uniform(-12, -2), rng.uniform(0, 0.5)], p=[0.3, 0.1, 0.1, 0.5]
         )
         material = tl.Elastic(10 ** rng.uniform(6, math.log10(2e11)), float(poisson))
-        bond: object = tl.BONDED
+        bond: object = tl.pavement.BONDED
         if number < count - rigid:
-            spring = tl.Bond(float(10 ** rng.uniform(6, 13)))
-            bond = [tl.BONDED, HALF_BONDED, spring, tl.FRICTIONLESS][rng.choice(4, p=[0.45, 0.1, 0.2, 0.25])]
+            spring = tl.pavement.Bond(float(10 ** rng.uniform(6, 13)))
+            bond = [tl.pavement.BONDED, HALF_BONDED, spring, tl.pavement.FRICTIONLESS][
+                rng.choice(4, p=[0.45, 0.1, 0.2, 0.25])
+            ]
         layers.append(tl.Layer(material, None if last else float(10 ** rng.uniform(-3, math.log10(20))), bond=bond))
     return tl.Pavement(layers, rigid_base=rigid)
 
@@ -276,7 +278,10 @@ def scaled_moduli(case: Case, base: xr.Dataset) -> Found:
     stiffer = _with(
         case.road,
         [replace(one, modulus=one.modulus * factor) for one in _materials(case.road)],
-        [tl.Bond(one.stiffness * factor) if isinstance(one, tl.Bond) else one for one in _bonds(case.road)],
+        [
+            tl.pavement.Bond(one.stiffness * factor) if isinstance(one, tl.pavement.Bond) else one
+            for one in _bonds(case.road)
+        ],
     )
     scaled = case.solve(road=stiffer)
     for name in KINDS["strain"] + KINDS["displacement"]:
@@ -321,8 +326,8 @@ def equal_layers(case: Case, base: xr.Dataset) -> Found:
     """Layers of one material are one layer, or a half-space, which has a closed form."""
     count, material = len(case.road.layers), case.road.layers[-1].elastic
     # Slides by 1e-9 of what moves at most, yet layers stay apart.
-    equal = _with(case.road, [material] * count, [*[tl.Bond(1e25)] * (count - 1), tl.BONDED])
-    one = _with(case.road, [material] * count, [tl.BONDED] * count)
+    equal = _with(case.road, [material] * count, [*[tl.pavement.Bond(1e25)] * (count - 1), tl.pavement.BONDED])
+    one = _with(case.road, [material] * count, [tl.pavement.BONDED] * count)
     yield from _same("equal layers", case.solve(road=equal), case.solve(road=one), PANELS)
 
 
@@ -347,7 +352,7 @@ def under_a_disc(case: Case) -> Found:
     rows = {"x": np.array([0.0, 1.0, 3.0]) * case.disc.radius, "y": np.zeros(1)}
     together = case.solve(loads=discs, **rows)
     yield from _same("discs add up", _sum([case.solve(loads=[one], **rows) for one in discs]), together, PANELS)
-    if any(bond != tl.BONDED for bond in _bonds(case.road)) or 100 * length / bottom > 300:
+    if any(bond != tl.pavement.BONDED for bond in _bonds(case.road)) or 100 * length / bottom > 300:
         return
     # Rings up to where σ_zz, which falls like r^-5, holds 1e-6 of the load.
     edges = np.concatenate(
@@ -443,7 +448,7 @@ def _halved(road: tl.Pavement, number: int) -> tl.Pavement:
     one = layers[number]
     share = one.thickness / 3
     layers[number : number + 1] = [
-        replace(one, thickness=share, bond=tl.BONDED),
+        replace(one, thickness=share, bond=tl.pavement.BONDED),
         replace(one, thickness=one.thickness - share),
     ]
     return tl.Pavement(layers, rigid_base=road.rigid_base)

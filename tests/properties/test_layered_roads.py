@@ -18,7 +18,7 @@ def load(seed=0):
     return GridLoad(GRID, rng.uniform(0, 1e6, GRID.shape), *rng.uniform(-3e5, 3e5, (2, *GRID.shape)))
 
 
-def road(bond=tl.BONDED, other=tl.BONDED):
+def road(bond=tl.pavement.BONDED, other=tl.pavement.BONDED):
     return tl.Pavement([tl.Layer(ASPHALT, 0.06, bond=bond), tl.Layer(BASE, 0.15, bond=other), tl.Layer(SOIL)])
 
 
@@ -30,7 +30,7 @@ def close(one, other, tolerance, names=NAMES):
 
 def test_equal_layers_are_the_half_space():
     # A spring this stiff slides by 1e-14 of what the body moves, yet takes the way of the layers.
-    stuck = tl.Bond(1e25)
+    stuck = tl.pavement.Bond(1e25)
     same = tl.Pavement([tl.Layer(ASPHALT, 0.06, bond=stuck), tl.Layer(ASPHALT, 0.15, bond=stuck), tl.Layer(ASPHALT)])
     points = {"depths": [0.0, 0.003, 0.02, 0.058, 0.06, 0.1, 0.3], "x": [-0.1, 0.0, 0.013], "y": [0.0, 0.05]}
     layered = tl.solve_response(load(), same, **points)
@@ -80,7 +80,7 @@ def test_a_disc_has_an_axis_and_squares_turn():
 def test_the_spring_between_layers(stiffness):
     points = {"depths": [0.06], "x": [-0.05, 0.0, 0.12], "y": [0.0, 0.04]}
     solved = {
-        side: tl.solve_response(load(), road(tl.Bond(stiffness)), side=side, **points).dataset
+        side: tl.solve_response(load(), road(tl.pavement.Bond(stiffness)), side=side, **points).dataset
         for side in ("above", "below")
     }
     close(solved["above"], solved["below"], 1e-9, ["stress_zz", "stress_xz", "stress_yz", "displacement_z"])
@@ -98,7 +98,8 @@ def test_half_bonded_is_the_mean_of_two_roads():
     pressed = tl.UniformRectangle(0.2, 0.1, 5e5)
     found = tl.solve_response(pressed, half, **points).dataset
     stuck, free = (
-        tl.solve_response(pressed, road(bond, bond), **points).dataset for bond in (tl.BONDED, tl.FRICTIONLESS)
+        tl.solve_response(pressed, road(bond, bond), **points).dataset
+        for bond in (tl.pavement.BONDED, tl.pavement.FRICTIONLESS)
     )
     # The same two sums: round-off alone.
     close(found, {name: (stuck[name] + free[name]) / 2 for name in NAMES}, 1e-14)
@@ -125,7 +126,7 @@ def test_half_bonded_layers_of_one_material_slide_in_one_of_two_roads():
 
 def test_what_nothing_holds_is_not_given():
     points = {"depths": [0.0, 0.1, 0.5], "x": [0.0], "y": [0.0]}
-    slab = road(other=tl.FRICTIONLESS)
+    slab = road(other=tl.pavement.FRICTIONLESS)
     response = tl.solve_response(tl.UniformRectangle(0.2, 0.1, 5e5, traction_x=1e5), slab, **points)
     assert np.isnan(response.dataset["displacement_x"].to_numpy().ravel()).tolist() == [True, True, False]
     assert np.isfinite(response.dataset["displacement_y"]).all()
@@ -138,7 +139,7 @@ def test_what_nothing_holds_is_not_given():
 
 def test_means_below_a_face_that_nothing_holds_are_finite():
     points = {"depths": [0.05, 0.5], "x": [0.0], "y": [0.0]}
-    slab, rectangle = road(other=tl.FRICTIONLESS), tl.UniformRectangle(0.2, 0.1, 5e5, traction_x=1e5)
+    slab, rectangle = road(other=tl.pavement.FRICTIONLESS), tl.UniformRectangle(0.2, 0.1, 5e5, traction_x=1e5)
     point = tl.solve_response(rectangle, slab, **points).dataset
     means = tl.solve_response(rectangle, slab, mean_over=0.02, **points)
     moved = means.dataset["displacement_x"].to_numpy().ravel()

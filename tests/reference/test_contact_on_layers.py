@@ -32,11 +32,11 @@ def road(*layers, **options):
     )
 
 
-B = tl.BONDED
+B = tl.pavement.BONDED
 ROADS = {
     "asphalt on soil": road((7000, 0.35, 0.06, B), (9000, 0.35, 0.15, B), (120, 0.35, None, B)),
-    "soft tack coat": road((7000, 0.35, 0.06, tl.Bond(1e9)), (9000, 0.35, 0.15, B), (120, 0.35, None, B)),
-    "loose": road((7000, 0.35, 0.06, tl.FRICTIONLESS), (9000, 0.35, 0.15, B), (120, 0.35, None, B)),
+    "soft tack coat": road((7000, 0.35, 0.06, tl.pavement.Bond(1e9)), (9000, 0.35, 0.15, B), (120, 0.35, None, B)),
+    "loose": road((7000, 0.35, 0.06, tl.pavement.FRICTIONLESS), (9000, 0.35, 0.15, B), (120, 0.35, None, B)),
     "inverted": road((5000, 0.35, 0.08, B), (300, 0.35, 0.12, B), (15000, 0.25, 0.2, B), (80, 0.35, None, B)),
     "soft over stiff": road((50, 0.45, 0.1, B), (5000, 0.2, None, B)),
     "rock below": road((100, 0.3, 0.1, B), rigid_base=True),

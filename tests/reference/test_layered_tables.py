@@ -14,13 +14,13 @@ AMADEUS, ELLEA, FRENCH = (
     json.loads((FOLDER / name).read_text())
     for name in ("amadeus_brrc2000.json", "ellea1.json", "nf_p98_086_table_I5.json")
 )
-BONDS = {"bonded": tl.BONDED, "frictionless": tl.FRICTIONLESS}
+BONDS = {"bonded": tl.pavement.BONDED, "frictionless": tl.pavement.FRICTIONLESS}
 # Of the finely computed values, in their own unit, by the largest of its kind: the aim of the quadrature.
 CLOSE = 1e-9
 
 
 def road(thickness, moduli, poissons, bonds):
-    layers = zip(moduli, poissons, [*thickness, None], [*bonds, tl.BONDED], strict=True)
+    layers = zip(moduli, poissons, [*thickness, None], [*bonds, tl.pavement.BONDED], strict=True)
     return tl.Pavement([tl.Layer(tl.Elastic(e * 1e6, nu), h, bond=bond) for e, nu, h, bond in layers])
 
 
@@ -95,7 +95,7 @@ def test_amadeus(case):
 @pytest.mark.parametrize("case", ELLEA["cases"], ids=lambda case: case["id"])
 def test_ellea(case):
     structure = case["structure"]
-    built = road([h / 1e3 for h in structure["h_mm"]], structure["E_MPa"], structure["nu"], [tl.BONDED] * 2)
+    built = road([h / 1e3 for h in structure["h_mm"]], structure["E_MPa"], structure["nu"], [tl.pavement.BONDED] * 2)
     x, y, z = (np.array(case["points_mm"]).T / 1e3).round(9)
     data = tl.solve_response(
         discs(case["loads"]), built, depths=np.unique(z), x=np.unique(x), y=np.unique(y), side="above"
@@ -118,7 +118,9 @@ def test_french_table():
     arguments = {"depths": [0.21, 0.36], "x": [0.0, 0.1875], "y": [0.0]}
     solved = {}
     for name, bond in BONDS.items():
-        built = road(structure["h_m"], structure["E_MPa"], structure["nu"], [tl.BONDED, bond, tl.BONDED])
+        built = road(
+            structure["h_m"], structure["E_MPa"], structure["nu"], [tl.pavement.BONDED, bond, tl.pavement.BONDED]
+        )
         solved[name] = {
             side: tl.solve_response(loads, built, side=side, **arguments).dataset for side in ("above", "below")
         }
@@ -129,7 +131,9 @@ def test_french_table():
             for key, exact in fine.items():
                 largest = 1.0 if key[0] == "s" else 100.0
                 assert abs(float(values(point, key)) - exact) <= CLOSE * largest, (name, key)
-    built = road(structure["h_m"], structure["E_MPa"], structure["nu"], [tl.BONDED, HALF_BONDED, tl.BONDED])
+    built = road(
+        structure["h_m"], structure["E_MPa"], structure["nu"], [tl.pavement.BONDED, HALF_BONDED, tl.pavement.BONDED]
+    )
     half = {side: tl.solve_response(loads, built, side=side, **arguments).dataset for side in ("above", "below")}
     table = FRENCH["high_accuracy"]
     for (x, _, z, side), fine in zip(table["points"], table["semi_bonded_mean"], strict=True):

@@ -32,11 +32,11 @@ def solve(**change):
         (lambda: tl.Elastic(5e9, 0.6), r"poisson must lie in \(-1, 0.5\], got 0.6"),
         (lambda: tl.Elastic(5e9, "0.3"), r"poisson must lie in \(-1, 0.5\], got '0.3'"),
         (
-            lambda: tl.Pavement([tl.Layer(ASPHALT, 0.1), tl.Layer(SOIL, bond=tl.FRICTIONLESS)]),
+            lambda: tl.Pavement([tl.Layer(ASPHALT, 0.1), tl.Layer(SOIL, bond=tl.pavement.FRICTIONLESS)]),
             r"the last layer .* has no layer below it to be bonded to, got the bond frictionless",
         ),
-        (lambda: tl.Bond(-1.0), r"stiffness of a bond must be >= 0 Pa/m, got -1"),
-        (lambda: tl.Bond(None), r"stiffness of a bond must be >= 0 Pa/m, got None"),
+        (lambda: tl.pavement.Bond(-1.0), r"stiffness of a bond must be >= 0 Pa/m, got -1"),
+        (lambda: tl.pavement.Bond(None), r"stiffness of a bond must be >= 0 Pa/m, got None"),
         (lambda: solve(speed=-1.0), r"speed must be >= 0 m/s, got -1"),
         (lambda: solve(speed="10"), r"speed must be >= 0 m/s, got '10'"),
         (lambda: solve(depths=[-0.01]), r"depths must not be negative, got -0.01 m; depth counts downwards"),
@@ -74,7 +74,7 @@ def test_a_loose_course_over_an_incompressible_one_on_rock(top):
     def stress(middle):
         layers = [
             tl.Layer(top, 0.1),
-            tl.Layer(tl.Elastic(5e7, middle), 15.0, bond=tl.FRICTIONLESS),
+            tl.Layer(tl.Elastic(5e7, middle), 15.0, bond=tl.pavement.FRICTIONLESS),
             tl.Layer(tl.Elastic(2e8, 0.3), 0.005),
         ]
         road = tl.Pavement(layers, rigid_base=True)

@@ -154,7 +154,13 @@ def test_a_footprint_reaches_as_far_as_anything_presses():
 
 @pytest.mark.parametrize(("stiffness", "told"), [(1e3, True), (1e10, False), (0.0, False), (np.inf, False)])
 def test_a_bond_is_doubted_that_neither_holds_nor_slides(stiffness, told):
-    bond = tl.FRICTIONLESS if stiffness == 0 else tl.BONDED if stiffness == np.inf else tl.Bond(stiffness=stiffness)
+    bond = (
+        tl.pavement.FRICTIONLESS
+        if stiffness == 0
+        else tl.pavement.BONDED
+        if stiffness == np.inf
+        else tl.pavement.Bond(stiffness=stiffness)
+    )
     road = Pavement([Layer(Elastic(5e9, 0.35), 0.1, bond=bond), Layer(Elastic(1e8, 0.35))])
     assert any("bond" in text for text in road_doubts(road)) == told
 

@@ -24,7 +24,7 @@ INFLUENCE = Influence((5, 7), 0.02, 0.03, Sum.of(HalfSpaces(BODIES), Layering(im
 STEEL, RUBBER = tl.Elastic(210e9, 0.3), tl.Elastic(3e6, 0.5)
 
 
-def road(bond=tl.BONDED):
+def road(bond=tl.pavement.BONDED):
     return tl.Pavement(
         [
             tl.Layer(tl.Elastic(7e9, 0.35), 0.06, "wearing course", bond),
@@ -145,7 +145,7 @@ def test_a_start_serves_on_layers_too():
 
 
 def test_without_friction_a_loose_interface_serves():
-    found = contact(STEEL, road(tl.FRICTIONLESS), 0.0, road_compliance="layers")
+    found = contact(STEEL, road(tl.pavement.FRICTIONLESS), 0.0, road_compliance="layers")
     assert found.stats["layers_solved"]
     assert np.isfinite(found.dataset.displacement_x).all()
     # A loose top layer carries less.
@@ -157,7 +157,7 @@ def test_refused():
     with pytest.raises(tl.InputError, match='"half_space" or "layers", got \'layer\''):
         contact(STEEL, road(), road_compliance="layer")
     with pytest.raises(tl.InputError, match=r"frictionless interface lets the layers above it drift.*friction = 0"):
-        contact(STEEL, road(tl.FRICTIONLESS), road_compliance="layers")
+        contact(STEEL, road(tl.pavement.FRICTIONLESS), road_compliance="layers")
 
 
 @pytest.mark.slow

@@ -528,7 +528,7 @@ def test_what_is_refused(asked, message):
 def test_sections_of_roads():
     layers = [
         tl.Layer(tl.Elastic(6e9, 0.35), 0.04),
-        tl.Layer(tl.Elastic(3e9, 0.35), 0.08, bond=tl.Bond(1e11)),
+        tl.Layer(tl.Elastic(3e9, 0.35), 0.08, bond=tl.pavement.Bond(1e11)),
         tl.Layer(tl.Elastic(1e8, 0.35)),
     ]
     section, poisson = section_of(tl.Pavement(layers), 0.0, 0.12)
@@ -536,7 +536,7 @@ def test_sections_of_roads():
     assert section.strips[0].modulus == pytest.approx(4e9)
     assert section.strips[0].slip == pytest.approx(1e-11)
     assert poisson == pytest.approx(0.35)
-    slipped = [tl.Layer(tl.Elastic(6e9, 0.35), 0.04, bond=tl.Bond(1e11)), *layers[1:]]
+    slipped = [tl.Layer(tl.Elastic(6e9, 0.35), 0.04, bond=tl.pavement.Bond(1e11)), *layers[1:]]
     with pytest.raises(InputError, match="layers that are bonded"):
         section_of(tl.Pavement(slipped), 0.0, 0.12)
 

@@ -28,7 +28,7 @@ def load(seed=0):
     return GridLoad(GRID, rng.uniform(0, 1e6, GRID.shape), *rng.uniform(-3e5, 3e5, (2, *GRID.shape)))
 
 
-def road(top=SOLID, bond=tl.BONDED):
+def road(top=SOLID, bond=tl.pavement.BONDED):
     return tl.Pavement([tl.Layer(top, 0.08, name="asphalt", bond=bond), tl.Layer(BASE, 0.2), tl.Layer(SOIL)])
 
 
@@ -120,7 +120,7 @@ def test_viscoelastic_layer_below_an_elastic_one():
 
 
 def test_a_sheet_that_nothing_holds_has_no_place():
-    loose = road(bond=tl.FRICTIONLESS)
+    loose = road(bond=tl.pavement.FRICTIONLESS)
     solved = tl.solve_response(load(), loose, depths=[0.0, 0.15], x=[0.0], y=[0.0], speed=20.0)
     assert np.isnan(solved.dataset["displacement_x"][0]).all()
     assert np.isfinite(solved.dataset["displacement_x"][1]).all()

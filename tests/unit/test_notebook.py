@@ -129,8 +129,8 @@ def test_a_description_reads_as_the_call_that_makes_it():
     assert built.interfaces == pytest.approx([0.06])
     assert built.layers[1] == road.layers[1]
     assert repr(tl.Rolling(normal_load=32.5e3, friction=0.7)) == "Rolling(normal_load=32500.0, friction=0.7)"
-    assert "FRICTIONLESS" not in repr(tl.Layer(tl.Elastic(1e9, 0.3), 0.1, bond=tl.FRICTIONLESS))
-    assert "bond=" in repr(tl.Layer(tl.Elastic(1e9, 0.3), 0.1, bond=tl.FRICTIONLESS))
+    assert "FRICTIONLESS" not in repr(tl.Layer(tl.Elastic(1e9, 0.3), 0.1, bond=tl.pavement.FRICTIONLESS))
+    assert "bond=" in repr(tl.Layer(tl.Elastic(1e9, 0.3), 0.1, bond=tl.pavement.FRICTIONLESS))
 
 
 def test_long_members_are_told_by_their_size():

@@ -101,7 +101,7 @@ def bond_comparison():
         {"state": ["bonded", "parted", "bonded, then parted"], "criterion": ["top", "base"]},
         {"interface": 0, "between": "asphalt / base", "bond": "frictionless", "parts": "none"},
     )  # fmt: skip
-    return tl.life.BondComparison(data, before, life(), 0, tl.FRICTIONLESS, "top")
+    return tl.life.BondComparison(data, before, life(), 0, tl.pavement.FRICTIONLESS, "top")
 
 
 def sensitivity():

@@ -420,7 +420,7 @@ def test_a_bond_law_is_one_file_of_theirs(road_laws):
     # 10 K are two halvings of 8000 MPa/m.
     road = case.pavement.build()
     assert road.layers[0].bond.stiffness == pytest.approx(2e9)
-    layers = [tl.Layer(tl.Elastic(7e9, 0.35), 0.06, bond=tl.Bond(2e9)), tl.Layer(tl.Elastic(120e6, 0.35))]
+    layers = [tl.Layer(tl.Elastic(7e9, 0.35), 0.06, bond=tl.pavement.Bond(2e9)), tl.Layer(tl.Elastic(120e6, 0.35))]
     disc = tl.UniformDisc(0.1, 7e5)
     theirs, ours = (tl.solve_response(disc, one, depths=[0.06], x=[0], y=[0]) for one in (road, tl.Pavement(layers)))
     np.testing.assert_allclose(theirs.dataset.strain_xx, ours.dataset.strain_xx, rtol=1e-12)

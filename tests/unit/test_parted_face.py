@@ -184,4 +184,4 @@ def test_a_case_names_a_parted_face_and_frictionless_stays_what_it_was() -> None
     assert made == Parted(0.6)
     assert str(made) == "parted with friction 0.6"
     assert FRICTIONLESS.sticking is FRICTIONLESS
-    assert Parted(0.6).sticking == tl.BONDED
+    assert Parted(0.6).sticking == tl.pavement.BONDED

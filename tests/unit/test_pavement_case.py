@@ -31,7 +31,11 @@ LAYERED = COARSE_CASE[:START] + LAYERS + COARSE_CASE[COARSE_CASE.index("[rolling
 def test_layers_with_bonds():
     case = tl.Case.from_text(LAYERED)
     road = case.pavement.build()
-    assert [layer.bond for layer in road.layers] == [tl.Bond(1e9), tl.FRICTIONLESS, tl.BONDED]
+    assert [layer.bond for layer in road.layers] == [
+        tl.pavement.Bond(1e9),
+        tl.pavement.FRICTIONLESS,
+        tl.pavement.BONDED,
+    ]
     assert [layer.thickness for layer in road.layers] == [0.06, 0.15, None]
     assert math.isinf(road.layers[2].bond.stiffness)
     again = tl.Case.from_text(case.to_toml())

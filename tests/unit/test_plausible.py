@@ -84,7 +84,7 @@ def test_a_response_says_what_no_road_is():
         'thickness of the surface course is 6 m; surface courses usually measure 1 to 40 cm: did you mean "6 cm"?'
         in (told.summary())
     )
-    soft = tl.Pavement([tl.Layer(tl.Elastic(5400.0, 0.35), 0.06, name="top", bond=tl.Bond(1000.0)), SOIL])
+    soft = tl.Pavement([tl.Layer(tl.Elastic(5400.0, 0.35), 0.06, name="top", bond=tl.pavement.Bond(1000.0)), SOIL])
     said = " ".join(tl.solve_response(DISC, soft, depths=[0.0], x=[0.0], y=[0.0]).warnings)
     assert "modulus of layer 1 (top) is 5400 Pa" in said
     assert "stiffness of the bond below layer 1 (top) is 1000 Pa/m" in said

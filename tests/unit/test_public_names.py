@@ -31,11 +31,10 @@ def test_the_stub_states_every_public_name_once():
     assert not [name for name in stated if re.search(rf"\b{name}\b", own.rpartition('"""')[2])]
 
 
-def test_at_most_forty_two_names_rooms_included():
-    # Forty, and since roads are measured the verb of that and its room.
+def test_at_most_forty_names_rooms_included():
     rooms = [name for name in dir(tl) if isinstance(getattr(tl, name), ModuleType)]
     assert rooms == list(ROOMS)
-    assert len([name for name in dir(tl) if not name.startswith("_")]) <= 42
+    assert len([name for name in dir(tl) if not name.startswith("_")]) <= 40
     # What a completion shows is the user's, not the machinery's.
     assert not {"Any", "importlib", "annotations", "TYPE_CHECKING"} & set(dir(tl))
 
@@ -97,6 +96,8 @@ def test_notebooks_that_look_for_hidden_names_load_nothing():
 def test_what_the_readme_and_the_examples_name_exists():
     pages = [CLONE / "README.md", *(CLONE / "docs").rglob("*.md"), *(CLONE / "examples").rglob("*.py")]
     pages += (CLONE / "benchmarks").glob("*.py")
+    # It tells names that moved.
+    pages.remove(CLONE / "docs" / "development_history.md")
     named = {name for page in pages for name in re.findall(r"\btl((?:\.[A-Za-z_]\w*)+)", page.read_text("utf-8"))}
     assert len(named) > 40
     for name in named:

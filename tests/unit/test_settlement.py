@@ -25,7 +25,7 @@ def settled(moduli, poisson, thickness, *, spring=None, stiff=False, rigid=False
 
 def solved(moduli, poisson, thickness, *, bonds=None, stiff=False):
     depths = [*thickness, *[None] * (len(moduli) - len(thickness))]
-    bonds = bonds or [tl.BONDED] * len(moduli)
+    bonds = bonds or [tl.pavement.BONDED] * len(moduli)
     layers = [
         tl.Layer(tl.Elastic(e, v), h, bond=b) for e, v, h, b in zip(moduli, poisson, depths, bonds, strict=True)
     ]
@@ -51,7 +51,7 @@ def test_it_is_that_of_the_solver_of_one_road(moduli, poisson, thickness, stiff)
 
 def test_a_spring_between_layers():
     case = ([5e9, 3e8, 6e7], [0.35, 0.35, 0.4], [0.15, 0.3])
-    bonds = [tl.Bond(stiffness=1e9), tl.FRICTIONLESS, tl.BONDED]
+    bonds = [tl.pavement.Bond(stiffness=1e9), tl.pavement.FRICTIONLESS, tl.pavement.BONDED]
     np.testing.assert_allclose(settled(*case, spring=[1e9, 0.0]), solved(*case, bonds=bonds), rtol=1e-7)
 
 

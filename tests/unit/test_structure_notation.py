@@ -28,7 +28,7 @@ def test_layers_of_one_mix_stay_two():
     assert [layer.thickness for layer in road.layers] == [0.06, 0.1, 0.1, None]
     # E(15 °C, 10 Hz) of NF P98-086, as in the catalogue.
     assert [layer.elastic.modulus for layer in road.layers] == pytest.approx([7000e6, 9000e6, 9000e6, 120e6])
-    assert all(layer.bond == tl.BONDED for layer in road.layers)
+    assert all(layer.bond == tl.pavement.BONDED for layer in road.layers)
 
 
 @pytest.mark.parametrize(
@@ -54,7 +54,12 @@ def test_spellings_of_one_road(text):
 
 def test_treated_layers_are_half_bonded_to_each_other_only():
     road = tl.Pavement.from_catalogue("8 BBSG3 / 18 GC-T3 / 20 GLp-T2 / 10 GNT1 / PF3")
-    assert [layer.bond for layer in road.layers[:-1]] == [tl.BONDED, tl.pavement.HALF_BONDED, tl.BONDED, tl.BONDED]
+    assert [layer.bond for layer in road.layers[:-1]] == [
+        tl.pavement.BONDED,
+        tl.pavement.HALF_BONDED,
+        tl.pavement.BONDED,
+        tl.pavement.BONDED,
+    ]
 
 
 @settings(deadline=None)

@@ -95,7 +95,7 @@ def test_numbers_that_no_layer_has_are_doubted():
 
 
 def test_means_over_a_cube_and_interfaces_read_the_grain():
-    road = tl.Pavement([tl.Layer(MIX, 0.12, bond=tl.Bond(1e9)), tl.Layer(STONE)])
+    road = tl.Pavement([tl.Layer(MIX, 0.12, bond=tl.pavement.Bond(1e9)), tl.Layer(STONE)])
     grid = tl.response.Grid.centred(0.2, 0.2, 0.02)
     load = tl.response.GridLoad(grid, np.full(grid.shape, 7e5), np.full(grid.shape, 1e5), np.zeros(grid.shape))
     asked = {"depths": [0.0, 0.119], "x": [0.0, 0.05], "y": [0.01]}

@@ -25,12 +25,12 @@ K = np.geomspace(1e-5, 2e3, 40)
 
 def road(*layers, rigid=False):
     """Of (material, thickness[, bond])."""
-    return tl.Pavement([tl.Layer(one[0], *one[1:2], bond=(*one, tl.BONDED)[2]) if len(one) > 2 else tl.Layer(*one)
+    return tl.Pavement([tl.Layer(one[0], *one[1:2], bond=one[2]) if len(one) > 2 else tl.Layer(*one)
                         for one in layers], rigid_base=rigid)  # fmt: skip
 
 
 # Kept apart: neighbours of one material that are bonded are one layer.
-GLUED = tl.Bond(1e25)
+GLUED = tl.pavement.Bond(1e25)
 
 
 @pytest.mark.parametrize("name", MATERIALS)
@@ -93,7 +93,9 @@ def test_equal_layers_are_one_half_space_in_every_wave(name):
 
 
 def test_springs_frictionless_interfaces_and_reciprocity():
-    stack = stack_of(road((MIX, 0.06, tl.Bond(1e9)), (UNBOUND, 0.15, tl.FRICTIONLESS), (WEAK, 0.3), (SOIL,)))
+    stack = stack_of(
+        road((MIX, 0.06, tl.pavement.Bond(1e9)), (UNBOUND, 0.15, tl.pavement.FRICTIONLESS), (WEAK, 0.3), (SOIL,))
+    )
     result = transfer(K, stack, [0.06, 0.06, 0.21, 0.21], [False, True] * 2)
     above, under = result.plane[::2], result.plane[1::2]
     np.testing.assert_allclose(above[:, 1:], under[:, 1:], rtol=1e-10, atol=1e-20)
@@ -292,7 +294,7 @@ def test_isotropic_numbers_give_the_body_of_an_isotropic_half_space():
     "layers",
     [
         road((MIX, 0.06), (UNBOUND, 0.3), (SOIL,)),
-        road((WEAK, 0.06, tl.Bond(1e9)), (UNBOUND, 0.3), (MIX,)),
+        road((WEAK, 0.06, tl.pavement.Bond(1e9)), (UNBOUND, 0.3), (MIX,)),
         road((UNBOUND, 0.4), rigid=True),
         road((SOIL, 0.1), (MIX, 0.2), (UNBOUND,)),
     ],

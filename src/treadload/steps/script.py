@@ -17,7 +17,7 @@ from treadload.contact import friction
 from treadload.pavement import BONDED, FRICTIONLESS, Layer
 
 # Where a class can be reached from `import treadload as tl`, the shortest way first.
-_TOP = ("Elastic", "Bond", "Layer", "Rolling")
+_TOP = ("Elastic", "Layer", "Rolling")
 _ROOMS = {
     "materials": materials,
     "pavement": pavement,
@@ -164,7 +164,7 @@ def _layer(layer: Layer) -> str:
     positional = [_code(layer.material)]
     arguments = {"thickness": layer.thickness, "name": layer.name or None}
     if layer.bond != BONDED:
-        said_bond = "tl.FRICTIONLESS" if layer.bond == FRICTIONLESS else _code(layer.bond)
+        said_bond = "tl.pavement.FRICTIONLESS" if layer.bond == FRICTIONLESS else _code(layer.bond)
         return f"tl.Layer({', '.join([*positional, *_keywords(arguments), f'bond={said_bond}'])})"
     return f"tl.Layer({', '.join([*positional, *_keywords(arguments)])})"
 
