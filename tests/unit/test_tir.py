@@ -292,6 +292,33 @@ def test_signs_unsaid_are_asked_for(tmp_path):
     assert MagicFormula.from_file(named).signs == "SAE"
 
 
+@pytest.mark.parametrize(
+    ("comment", "signs"),
+    [
+        ("rolling resistance after ISO 28580, SAE J2452", None),
+        ("ISO/TS 28580", None),
+        ("isotropic rubber", None),
+        ("ISO 8855", "ISO"),
+        ("ISO-W", "ISO"),
+        ("MF-TYRE 5.0 (W-axis system)", "ISO"),
+        ("axes: SAE J670", "SAE"),
+        ("SAE axes", "SAE"),
+        ("adapted SAE", "adapted SAE"),
+    ],
+)
+def test_a_standard_of_measurement_states_no_signs(tmp_path, comment, signs):
+    def change(text):
+        text = text.replace("Signs: ISO 8855.", comment)
+        return text.replace("PKY1 = -16.3", "PKY1 = 16.3") if signs == "adapted SAE" else text
+
+    path = edited(tmp_path, change)
+    if signs is None:
+        with pytest.raises(InputError, match="does not state its signs"):
+            MagicFormula.from_file(path)
+    else:
+        assert MagicFormula.from_file(path).signs == signs
+
+
 SECTIONS = [line for line in INVENTED.read_text(encoding="utf-8").splitlines() if line.startswith("[")]
 
 

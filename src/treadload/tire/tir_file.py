@@ -19,11 +19,12 @@ the book of Pacejka calls adapted."""
 _HEADING = re.compile(r"\[\s*([A-Za-z0-9_ ]+?)\s*\]")
 _ENTRY = re.compile(r"([A-Za-z][A-Za-z0-9_]*)\s*=\s*(.*)")
 _NUMBERS = re.compile(r"[-+0-9.eE,;\s]+")
-# Words of a comment or a key that state the signs; "adapted SAE" before "SAE".
+# Words of a comment or a key that state the signs; "adapted SAE" before "SAE". Standards of measurement such as
+# ISO 28580 or SAE J2452 state none.
 _STATED = (
     ("adapted SAE", re.compile(r"\badapted[ -]SAE\b", re.IGNORECASE)),
-    ("SAE", re.compile(r"(?<!adapted )(?<!adapted-)\bSAE\b(?! ?J?2452)", re.IGNORECASE)),
-    ("ISO", re.compile(r"\bISO(?:[ -]?W|[ -]?8855)?\b|\bW[ -]axis\b", re.IGNORECASE)),
+    ("SAE", re.compile(r"(?<!adapted[ -])\bSAE\b(?![ -]?J? ?(?!670)\d)", re.IGNORECASE)),
+    ("ISO", re.compile(r"\bISO(?:-?W)?\b(?![ :/-]*(?:TS|TR|PAS)?[ :/-]*(?!8855)\d)|\bW[ -]axis\b", re.IGNORECASE)),
 )
 _UNITS: Mapping[str, Mapping[str, float]] = {
     "LENGTH": {
@@ -173,9 +174,11 @@ class TirText:
         """All numbers in SI, by section and key; texts and empty entries are left out. Raises InputError."""
         factors = self.factors()
         out: dict[str, dict[str, float]] = {}
-        for section in self.sections.keys() - {"UNITS"}:
+        for section, entries in self.sections.items():
+            if section == "UNITS":
+                continue
             out[section] = {}
-            for key, (text, _) in self.sections[section].items():
+            for key, (text, _) in entries.items():
                 # What the formula reads must be a number; whatever else stands there may be a text.
                 if key not in _UNREAD and (key in DEFAULTS or key in _POWERS or _is_number(text)):
                     value = self.number(section, key)
