@@ -10,7 +10,8 @@ At the surface, where ribs end and slide, the exact extension has no bound: its 
 cell and the passes fall with it, as in the paper. The verdict reads its mean over a cube of 10 mm, the size of the
 mix's stones, which has one, in the horizontal plane, where it opens cracks downwards, and only where something is
 tensile: in a stiff course that bends, the largest tensile strain in space is vertical below the wheel, where
-everything is compressed, and opens no crack.
+everything is compressed, and opens no crack. Where that leaves nothing on the map, the verdict reads the basin beyond
+it: a wheel that rolls straight bends the surface upwards 0.7 to 0.95 m away.
 
     python examples/roundabout/run.py [folder] [--coarse]
 """
@@ -46,8 +47,8 @@ MANEUVERS = {
 }
 PARKING = "parking turn"
 DEEP = 0.01
-# Responses are read on the contact's grid. Further out a road that bends extends too, but less than the threshold:
-# the structure under the straight wheel by 8 microstrain, 0.9 m away.
+# Roses are drawn on the contact's grid. Further out a road that bends extends too, but less than the threshold: the
+# structure under the straight wheel by 8 microstrain, which is what `assess` reads there.
 # Road that extends by less than a fifth of the paper's ε₆ bears it thousands of millions of times.
 THRESHOLD = 24e-6
 

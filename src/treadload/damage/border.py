@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from dataclasses import field as dataclass_field
 
 import numpy as np
 import xarray as xr
@@ -179,30 +180,26 @@ def evaluated_further(response: Source, field: Field, means: Means | None) -> tu
 class _Further:
     """The field of an assessment anywhere; arguments as `evaluated_further`.
 
-    coarse: loads under which the basin beyond the map is solved on few waves, to half a per cent; None where the map
-    ends nearer to the wheels than that holds, or where loads are discs, which cost little.
+    coarse: loads under which the basin beyond the map is solved on few waves, to half a per cent, from `BEYOND` their
+    cells on; None where loads are discs, which cost little, or the road is homogeneous. near: exact values nearer to
+    the loads, by the points at which they were evaluated.
     """
 
     response: Response
     means: Means | None
     field: Field
     coarse: list[SurfaceLoad] | None = None
+    near: dict[bytes, Array] = dataclass_field(default_factory=dict)
 
     @classmethod
     def of(cls, response: Response, means: Means | None, field: Field) -> _Further:
-        """Of an assessment, with coarse loads where its map ends far enough from the wheels."""
+        """Of an assessment, with coarse loads where the response is of footprints on layers."""
         needs = components_of(field.quantity.needs)
-        grids = [load.cell if isinstance(load, UniformRectangle) else load for load in response.loads]
-        wheels = [load for load in grids if isinstance(load, GridLoad)]
+        wheels = _grids(response)
         assert response.road is not None
-        if needs is None or len(wheels) < len(grids) or response.road.is_homogeneous:
+        if needs is None or len(wheels) < len(response.loads) or response.road.is_homogeneous:
             return cls(response, means, field)
-        margins = [
-            min(at.min() - ends[0], ends[-1] - at.max())
-            for load in wheels
-            for at, ends in ((load.grid.x, field.data["x"].to_numpy()), (load.grid.y, field.data["y"].to_numpy()))
-        ]
-        return cls(response, means, field, coarsened(wheels) if min(margins) >= BEYOND else None)
+        return cls(response, means, field, coarsened(wheels))
 
     def values(self, x: Array, y: Array) -> Array:
         """What is evaluated at x (mx,) and y (my,), m, (depth, y, x); NaN in the map where the loads are coarse."""
@@ -216,11 +213,27 @@ class _Further:
         )  # fmt: skip
         assert solved is not None
         values = replace(self.field, data=self._restrained(solved[0])).value
-        data = self.field.data
-        of_x, of_y = (
-            (at > data[name].to_numpy()[0]) & (at < data[name].to_numpy()[-1]) for name, at in (("x", x), ("y", y))
-        )
-        return np.where(of_y[:, None] & of_x, np.nan, values)
+        data, wheels = self.field.data, [load.grid for load in _grids(response)]
+        # By axis: whether a point lies within the map, and so near to the loads that the coarse ones are not enough.
+        within, close = [], []
+        for axis, at in (("y", y), ("x", x)):
+            ends = data[axis].to_numpy()[[0, -1]]
+            cells = [getattr(grid, axis)[[0, -1]] for grid in wheels]
+            low, high = min(first for first, _ in cells) - BEYOND, max(last for _, last in cells) + BEYOND
+            within.append((at > ends[0]) & (at < ends[1]))
+            close.append((at > low) & (at < high))
+        outside = any((near & ~inside).any() for near, inside in zip(close, within, strict=True))
+        if outside and all(near.any() for near in close):
+            values[:, *np.ix_(*close)] = self._near(x[close[1]], y[close[0]])
+        values[:, *np.ix_(*within)] = np.nan
+        return values
+
+    def _near(self, x: Array, y: Array) -> Array:
+        """Exact values, evaluated once for each set of points."""
+        key = x.tobytes() + y.tobytes()
+        if key not in self.near:
+            self.near[key] = self.at(x, y).value
+        return self.near[key]
 
     def at(self, x: Array, y: Array) -> Field:
         """The field itself there, exact to 1e-6 of the largest."""
@@ -242,6 +255,12 @@ class _Further:
         levels = response.dataset["depth"].to_numpy()
         stress = [response.restrained[int(np.argmin(np.abs(levels - z)))] for z in data["depth"].to_numpy()]
         return with_horizontal_stress(data, np.array(stress))
+
+
+def _grids(response: Response) -> list[GridLoad]:
+    """Those loads of a response that stand on cells, or are one."""
+    loads = [load.cell if isinstance(load, UniformRectangle) else load for load in response.loads]
+    return [load for load in loads if isinstance(load, GridLoad)]
 
 
 def border_in_words(response: Source, field: Field, beyond: Beyond | None) -> list[str]:
