@@ -1,10 +1,14 @@
 """What a distribution holds and says: versions and dependencies that agree, links, licences, nothing invented."""
 
+import http.server
 import importlib.util
 import json
+import os
 import re
 import subprocess
 import sys
+import tempfile
+import threading
 import tomllib
 import types
 from pathlib import Path
@@ -12,6 +16,7 @@ from pathlib import Path
 import pytest
 
 import treadload as tl
+from treadload.app.links import Links
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -106,7 +111,47 @@ def test_data_of_others_come_with_their_licences():
 def test_the_image_runs_as_a_user_and_is_asked_for_its_health():
     text = (ROOT / "Containerfile").read_text()
     assert re.search(r"^USER treadload$", text, re.MULTILINE)
-    assert "HEALTHCHECK" in text
+    script = re.search(r'^HEALTHCHECK .*CMD \["python", "(\S+)"\]$', text, re.MULTILINE)[1]
+    assert f"COPY packaging/health.py {script}\n" in text
     assert re.search(r'^ENTRYPOINT \["treadload"\]$', text, re.MULTILINE)
     extras = re.search(r"'\.\[([a-z,]+)\]'", text)[1].split(",")
     assert set(extras) <= set(PROJECT["project"]["optional-dependencies"])
+
+
+class Page(http.server.BaseHTTPRequestHandler):
+    """A page that answers 200 to /health alone."""
+
+    def do_GET(self):
+        self.send_response(200 if self.path == "/health" else 403)
+        self.end_headers()
+
+    def log_message(self, *_):
+        pass
+
+
+def test_the_health_of_an_image_is_that_of_its_page(tmp_path, monkeypatch):
+    """The page's while it is served, at the address that a server writes; else whether the program starts."""
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    programs = tmp_path / "bin"
+    programs.mkdir()
+    program = programs / "treadload"
+    program.write_text("#!/bin/sh\necho 1.2.3\n")
+    program.chmod(0o755)
+    environment = {**os.environ, "TMPDIR": str(tmp_path), "PATH": f"{programs}{os.pathsep}{os.environ['PATH']}"}
+
+    def health():
+        command = [sys.executable, ROOT / "packaging" / "health.py"]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
+        return done.returncode, (done.stdout + done.stderr).strip()
+
+    assert health() == (0, "1.2.3")
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), Page) as server:
+        port = server.server_address[1]
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        links = Links.begin("0.0.0.0", port, f"http://127.0.0.1:{port}/")
+        assert health() == (0, "")
+        server.shutdown()
+    assert health() == (1, f"the page does not answer on 0.0.0.0, port {port}")
+    links.end()
+    program.write_text("#!/bin/sh\nexit 3\n")
+    assert health()[0] == 3
