@@ -120,4 +120,4 @@ def _plane(
         return np.tensordot(weights, plane, axes=1), np.tensordot(weights, transverse, axes=1)
 
     lift = None if stack.upright_of(layer) is None else stack.lift_of(layer)
-    return ElasticPlane(kernels, stack.shear[layer], stack.poisson[layer], float(layout.limit.max()), lift)
+    return ElasticPlane(kernels, float(stack.shear[layer]), stack.poisson[layer], float(layout.limit.max()), lift)

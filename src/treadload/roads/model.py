@@ -59,7 +59,7 @@ class BasinModel:
         """Numbers that drops of the same geometry share (n, ...)."""
         if not self.columns.slabs:
             return np.zeros((len(self.drops), 1))
-        return np.stack([slab.t[4][:, 0, self.size // 2] for slab in self.columns.slabs], axis=1)
+        return np.stack([np.asarray(slab.t[4])[:, 0, self.size // 2] for slab in self.columns.slabs], axis=1)
 
     @property
     def coarse(self) -> BasinModel:

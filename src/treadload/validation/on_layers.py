@@ -69,7 +69,7 @@ def _influence(stack: Stack, shape: tuple[int, ...], dx: float) -> Influence:
 
 def _top(stack: Stack) -> CombinedElasticity:
     """A rigid body on the top layer as a half-space."""
-    return CombinedElasticity.of(math.inf, 0.0, stack.shear[0], stack.poisson[0])
+    return CombinedElasticity.of(math.inf, 0.0, float(stack.shear[0]), stack.poisson[0])
 
 
 def _rigid(stack: Stack, gap: Array, dx: float, load: float) -> NormalSolution:
@@ -84,7 +84,7 @@ def _plate(stack: Stack, radius: float, cells: int) -> tuple[float, float]:
     layered = _influence(stack, gap.shape, dx)
     plain = Influence(layered.shape, dx, dx, HalfSpaces(_top(stack)))
     on_top = solve_normal(plain, gap, load=_LOAD, tolerance=1e-9).approach
-    same = _LOAD * (1 - stack.poisson[0]) / stack.shear[0] / (4 * on_top)
+    same = _LOAD * (1 - stack.poisson[0]) / float(stack.shear[0]) / (4 * on_top)
     return solve_normal(layered, gap, load=_LOAD, tolerance=1e-9).approach, same
 
 

@@ -86,7 +86,7 @@ def layered_road(stack: Stack) -> Body:
     """A road of layers, body 2. Raises ConvergenceError as `images_of`."""
     top: Body
     if stack.upright_of(0) is None:
-        top = HalfSpaces(CombinedElasticity.of(*RIGID, stack.shear[0], stack.poisson[0]))
+        top = HalfSpaces(CombinedElasticity.of(*RIGID, float(stack.shear[0]), stack.poisson[0]))
     else:
         top = UprightHalfSpace.of(stack)
     return Sum.of(top, Layering(images_of(stack)))

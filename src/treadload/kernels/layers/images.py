@@ -178,7 +178,7 @@ def half_space_compliance(stack: Stack, layer: int) -> Array:
     shear, poisson, upright = stack.shear[layer], stack.poisson[layer], stack.upright_of(layer)
     if upright is None:
         return np.array([1 - poisson, -(1 - 2 * poisson) / 2, 1.0, -poisson]) / float(shear)
-    xx, zz, xz, transverse = upright.half_space(shear, poisson)
+    xx, zz, xz, transverse = upright.half_space(float(shear), poisson)
     return np.array([zz, xz, transverse, xx - transverse])
 
 
@@ -186,7 +186,7 @@ def _longest(stack: Stack) -> float:
     """The longest length over which layers act together, m: stretching, bending and sliding of the stiffest."""
     depth, stiffest, softest = float(stack.interfaces[-1]), max(stack.moduli), min(stack.moduli)
     last = stack.upright_of(-1)
-    lowest = float(stack.shear[-1]) if last is None else min(stack.shear[-1], last.shear)
+    lowest = float(stack.shear[-1]) if last is None else min(float(stack.shear[-1]), last.shear)
     length = depth * math.cbrt(stiffest / softest)
     if not stack.rigid:
         length = max(length, depth * stiffest / lowest)

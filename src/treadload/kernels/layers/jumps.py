@@ -170,7 +170,7 @@ def _through(k: Array, spring: float, plane: Array, transverse: Array) -> tuple[
 
 def _stiffness(slab: Slab) -> tuple[Array, Array]:
     xx, zz, xz, _ = slab.k
-    return np.stack([np.stack([xx, xz]), np.stack([xz, zz])]), slab.k_transverse
+    return np.stack([np.stack([xx, xz]), np.stack([xz, zz])]), np.asarray(slab.k_transverse)
 
 
 def _compliance(slab: Slab) -> Array:

@@ -23,20 +23,19 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, Reals
 from treadload.kernels.layers.depths import layers_at, snapped
 from treadload.kernels.layers.upright import Upright
 
 # Below this phase, k times the thickness, sinh x - x is summed as a series: the difference would lose digits.
 _SHORT = 0.5
 
-Scalars = Any
-"""Real or complex numbers, one or one per wavenumber."""
+Scalars = Reals
+"""Numbers, one or one per wavenumber; complex of moduli with memory, of which the algebra is the same."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +43,7 @@ class Stack:
     """Layers from the surface down.
 
     shear: shear modulus of each layer, Pa, a number or an array over the wavenumbers, real or complex.
-    poisson: Poisson's ratio of each layer, likewise; 0.5 is allowed.
+    poisson: Poisson's ratio of each layer; 0.5 is allowed.
     thickness: of each layer, m; without rigid base the last one is not read.
     spring: stiffness of each interface between layers against relative sliding, Pa/m, len(shear) - 1 values:
     inf for bonded layers, 0 for a frictionless interface; normal displacement is continuous.
@@ -54,7 +53,7 @@ class Stack:
     """
 
     shear: Sequence[Scalars]
-    poisson: Sequence[Scalars]
+    poisson: Sequence[float]
     thickness: Sequence[float]
     spring: Sequence[float]
     rigid: bool = False
@@ -64,7 +63,7 @@ class Stack:
         """What a layer has of its own along z, None in isotropy."""
         return self.upright[layer] if self.upright else None
 
-    def lift_of(self, layer: int) -> Scalars:
+    def lift_of(self, layer: int) -> float:
         """Horizontal normal stress by vertical where nothing strains horizontally: ν / (1 - ν) in isotropy."""
         upright = self.upright_of(layer)
         return self.poisson[layer] / (1 - self.poisson[layer]) if upright is None else upright.lift
@@ -225,7 +224,7 @@ class Slab:
         """A slab of a material at wavenumbers k (nk,); all of it may be arrays over these."""
         a = k * thickness
         if upright is not None:
-            return cls._upright(a, shear, poisson, upright, bottom)
+            return cls._upright(a, float(shear), float(poisson), upright, bottom)
         squeeze = 2 - 4 * poisson
         chi, more = 1 + squeeze, 2 + squeeze
         e = np.exp(-a)
@@ -276,7 +275,7 @@ class Slab:
         )
 
     @classmethod
-    def _upright(cls, a: Array, shear: Scalars, poisson: Scalars, upright: Upright, bottom: float) -> Slab:
+    def _upright(cls, a: Array, shear: float, poisson: float, upright: Upright, bottom: float) -> Slab:
         (cx, cz, cc), (kx, kz, kc), t = upright.slab(a, shear, poisson)
         modulus, turn = math.sqrt(shear * upright.shear), a * upright.roots(shear, poisson)[2]
         e, tanh = np.exp(-turn), np.tanh(turn)
@@ -334,6 +333,7 @@ class Slab:
 def upwards(k: Array, stack: Stack, depths: Sequence[float]) -> tuple[list[Slab], list[Body]]:
     """Slabs from the surface down to the rigid base or the deepest depth, and the body below each and below none."""
     parts = pieces(stack, depths)
+    transverse: Scalars
     if stack.rigid:
         zero = np.zeros_like(k)
         plane, transverse = Compliance(1.0, zero, zero, zero, zero), zero
@@ -355,7 +355,7 @@ def _half_space(ones: Array, stack: Stack) -> tuple[Compliance, Scalars]:
     """Compliance of the last layer as a half-space, plane and transverse."""
     shear, poisson, upright = stack.shear[-1], stack.poisson[-1], stack.upright_of(-1)
     if upright is not None:
-        xx, zz, xz, transverse = (entry * ones for entry in upright.half_space(shear, poisson))
+        xx, zz, xz, transverse = (entry * ones for entry in upright.half_space(float(shear), poisson))
         return Compliance(1.0, xx, zz, xz, xx * zz - xz * xz), transverse
     shear, squeeze = shear * ones, 2 - 4 * poisson
     diagonal = (2 + squeeze) / (4 * shear)

@@ -13,13 +13,14 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import scipy
 
 from treadload.kernels.arrays import Array, ComplexArray
 from treadload.kernels.gridding.points import Points
-from treadload.kernels.layers.layered import Stack, transfer
+from treadload.kernels.layers.layered import Scalars, Stack, transfer
 from treadload.kernels.layers.wavenumbers import Spectrum, across_lines, gauss, interleaved, panels, plane_fields
 
 # Wavenumbers of a block: keeps what the layers and depths hold for each near the cache.
@@ -60,7 +61,10 @@ class Body:
 
     def stack(self, kx: Array, rows: int, layers: int | None = None) -> Stack:
         """The layers for wavenumbers (rows, nkx) in one line; only the first ones, as a half-space, if given."""
-        shear = [np.tile(self.shear(layer, kx), rows) for layer in range(len(self.moduli))[:layers]]
+        # Complex where a layer has a memory, see `layered.Scalars`.
+        shear = cast(
+            "list[Scalars]", [np.tile(self.shear(layer, kx), rows) for layer in range(len(self.moduli))[:layers]]
+        )
         if layers is not None:
             return Stack(shear, self.poisson[:layers], [], [])
         return Stack(shear, self.poisson, self.thickness, self.spring, self.rigid)

@@ -17,12 +17,13 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import scipy
 from numpy.polynomial.chebyshev import chebpts1, chebvander
 
-from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.arrays import Array, IntArray, Numbers
 from treadload.kernels.layers.layered import Body, Compliance, Scalars, Slab
 from treadload.kernels.layers.wavenumbers import gauss
 
@@ -84,7 +85,7 @@ class Plate:
             weights.append(np.stack([(turned * _transform(order, k * radius)) @ interpolate for order in orders]))
         return cls(np.concatenate(nodes), np.concatenate(weights, axis=-1), direct, len(inside))
 
-    def settlement(self, kernel: Scalars, top: Scalars) -> Scalars:
+    def settlement(self, kernel: Array, top: Array) -> Array:
         """Settlement (..., s) of the sensors under 1 N, m. kernel: g (..., nk), 1/Pa. top: its limit (...)."""
         loads = [
             (top[..., None] * direct + (kernel - top[..., None]) @ weights.T) / (2 * math.pi)
@@ -160,11 +161,13 @@ class Columns:
         slabs = tuple(_changed(slab, lambda entry: entry[chosen]) for slab in self.slabs)
         return Columns(self.nodes, slabs, self.poisson[chosen], self.spring, self.rigid)
 
-    def kernel(self, shear: Scalars) -> tuple[Scalars, Scalars]:
+    def kernel(self, moduli: Numbers) -> tuple[Array, Array]:
         """Kernel g (n, v, nk), 1/Pa, and its limit for short waves, of shear moduli, Pa, real or complex.
 
-        shear: (n, v, L), the limit (n, v); or with moduli of each wavenumber (n, v, L, nk), the limit (n, v, nk).
+        moduli: (n, v, L), the limit (n, v); or with moduli of each wavenumber (n, v, L, nk), the limit (n, v, nk).
         """
+        # Of complex ones the algebra is the same, see `layered.Scalars`.
+        shear = cast("Array", moduli)
         ones = np.ones((*shear.shape[:2], len(self.nodes)))
         spread = shear.ndim == 4
         if self.rigid:
@@ -195,11 +198,11 @@ def _slab(nodes: Array, thickness: Array, poisson: Array) -> Slab:
     ratio = np.broadcast_to(poisson[:, None, None], shape).ravel()
     k = np.broadcast_to(nodes, shape).ravel()
     slab = Slab.of(k, np.ones_like(k), ratio, depth, 0.0, None)
-    return _changed(slab, lambda entry: np.asarray(entry).reshape(shape))
+    return _changed(slab, lambda entry: entry.reshape(shape))
 
 
-def _changed(slab: Slab, change: Callable[[Scalars], Array]) -> Slab:
-    c, k, t = (tuple(change(entry) for entry in entries) for entries in (slab.c, slab.k, slab.t))
+def _changed(slab: Slab, change: Callable[[Array], Array]) -> Slab:
+    c, k, t = (tuple(change(np.asarray(entry)) for entry in entries) for entries in (slab.c, slab.k, slab.t))
     return Slab(slab.bottom, c, k, t, 0.0, 0.0, 0.0)
 
 

@@ -15,8 +15,7 @@ from functools import cache
 import numpy as np
 import scipy
 
-from treadload.kernels.arrays import Array, ComplexArray
-from treadload.kernels.layers.layered import Scalars
+from treadload.kernels.arrays import Array, ComplexArray, Values
 
 # Panels start at this over the length of the problem; what lies below is 1e-9 of a field that falls as 1/k.
 _SMALLEST = 1e-7
@@ -130,7 +129,7 @@ def tabulated(values: Callable[[Array], Array], smallest: float, largest: float)
 
 
 def plane_fields(
-    load: ComplexArray, kernel: Array, shear: Scalars, poisson: float, kx: Array, ky: Array
+    load: ComplexArray, kernel: Array, shear: Values, poisson: float, kx: Array, ky: Array
 ) -> ComplexArray:
     """Stress and displacement at one depth in wavenumbers: xx, yy, zz, xy, xz, yz, tension positive, and x, y, z.
 
