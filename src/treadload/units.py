@@ -339,8 +339,8 @@ def years_in_words(years: float) -> str:
 
 
 def remaining_in_words(years: float) -> str:
-    """Years that are left of a service life; how long ago it ended where they are negative."""
-    return f"{-years:.3g} years past its end" if years < 0 else years_in_words(years)
+    """Years that are left of a service life; that none are, and how long ago it ended, where they are negative."""
+    return f"none (ended {-years:.3g} years ago)" if years < 0 else years_in_words(years)
 
 
 def repetitions_in_words(repetitions: float) -> str:

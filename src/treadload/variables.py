@@ -418,6 +418,7 @@ _NETWORK = {
     "remaining_years": ("1", "years of service life that are left, from the opening less the age"),
     "section_age": ("1", "years since the opening of a section"),
     "section_position": ("m", "place of a section along the road; NaN where it is not known"),
+    "section_length": ("m", "length of a section; NaN where it is not known"),
     "section_rank": ("1", "rank of a section by its remaining life, 1 for the least; 0 of those without"),
     "section_status": ("1", "0 not solved, 1 solved, 2 failed"),
 }
@@ -890,6 +891,7 @@ _DISPLAYS_STUDIES = {
     "stiff_depth": Display("stiff layer"),
     "remaining_years": Display("remaining life", "", remaining_in_words),
     "remaining_bands": Display("sections by remaining life"),
+    "remaining_lengths": Display("network by remaining life"),
     "section_age": Display("age", "", years_in_words),
     "section_status": Display("sections of the network"),
     "failed": Display("failed"),

@@ -90,7 +90,7 @@ def test_sections_are_ranked_and_bad_rows_fail_alone(case, table, tmp_path):
     assert data["section_position"].to_numpy()[:4].tolist() == [0, 500, 1500, 2000]
     reasons = [str(text) for text in data["reason"].to_numpy()]
     assert reasons[:3] == [""] * 3
-    assert reasons[3] == "no value of thickness asphalt"
+    assert reasons[3] == "no value of thickness asphalt; give a thickness of 0 where the layer is absent"
     assert reasons[4].startswith("age: ")
     assert reasons[5].startswith("station: ")
     assert "[0, 200] years" in reasons[6]
@@ -114,12 +114,66 @@ def test_sections_are_ranked_and_bad_rows_fail_alone(case, table, tmp_path):
         network.remaining("Z")
     text = network.text()
     assert "3 solved, 5 failed" in text
-    assert "years past its end" in text
+    assert "none (ended" in text
+    assert "2 of 3 sections have no remaining life" in " ".join(network.warnings)
     assert f"1. {network.ranked[0]}" in text
     assert "5 of 8 sections failed: B 1 (row 5), C 1, D 1, E 1, F 1" in " ".join(network.warnings)
     opened = tl.open_results(tl.save_results(network, tmp_path / "n.nc")).network
     assert opened.ranked == network.ranked
     assert opened.text() == text
+
+
+ABSENT = """section;length [km];age [years];thickness asphalt [mm];thickness base [mm];modulus base [MPa]
+A;0.5;4;120;250;300
+B;1;30;80;0;
+C;1.5;30;80;;
+D;;30;0.0;250;300
+E;2;30;100;;300
+F;-2;30;100;250;300
+"""
+
+
+def test_sections_without_a_layer_are_solved_without_it(case, tmp_path):
+    path = tmp_path / "s.csv"
+    path.write_text(ABSENT)
+    network = solve_network(case, path)
+    data = network.dataset
+    assert data["section_status"].to_numpy().tolist() == [1, 1, 1, 1, 2, 2]
+    years = data["life_years"].to_numpy()
+    # As the road that is written without it.
+    base = CASE.index('[[pavement.layers]]\nname = "base"')
+    without = CASE[:base] + CASE[CASE.index('[[pavement.layers]]\nname = "soil"') :]
+    life = tl.run(tl.Case.from_text(without.replace("12 cm", "80 mm"))).life
+    assert years[1].tolist() == years[2].tolist() == life.dataset["life_years"].to_numpy().tolist()
+    # No asphalt, no criterion of it; the others decide.
+    assert np.isnan(years[3, 0])
+    assert years[3, 1] > 0
+    words = " ".join(network.warnings)
+    assert "criterion 'bottom-up' is not evaluated: the road has no lowest asphalt layer" in words
+    assert "asphalt in 1 section(s), such as D; base in 2 section(s), such as B" in words
+    reasons = [str(text) for text in data["reason"].to_numpy()]
+    assert reasons[4] == "no value of thickness base; give a thickness of 0 where the layer is absent"
+    assert "length must be above 0" in reasons[5]
+    # Sections B and C have no life left, D has no length.
+    text = network.text()
+    assert "2.5 km at their end or beyond" in text
+    assert "3 km in all" in text
+    assert "1 solved sections have no length, such as D" in words
+    assert "0.5 km" in [row[2] for row in network_tables(data)[0].rows]
+    opened = tl.open_results(tl.save_results(network, tmp_path / "n.nc")).network
+    assert opened.text() == text
+
+
+def test_a_layer_of_no_thickness_is_absent_in_any_case():
+    absent = CASE.replace('"25 cm"', "0").replace('layer = "top of the subgrade"', "layer = 3")
+    case = tl.Case.from_text(absent)
+    assert [layer.name for layer in case.road().layers] == ["asphalt", "soil"]
+    assert [criterion.layer for criterion in case.build_criteria()] == [0, 1]
+    named = tl.Case.from_text(absent.replace("layer = 3", 'layer = "Base"'))
+    assert [criterion.name for criterion in named.build_criteria()] == ["bottom-up"]
+    assert named.left_out == ("criterion 'soil' is not evaluated: the road has no Base",)
+    with pytest.raises(InputError, match=r"no criterion is left.*'bottom-up', 'soil'"):
+        tl.Case.from_text(absent.replace('"12 cm"', "0").replace("layer = 3", "layer = 2"))
 
 
 def test_a_table_without_ages_and_places_counts_all_sections_as_new(case, tmp_path):

@@ -10,7 +10,7 @@ from treadload.damage.laws.of_layer import Law, OnLayer, law_of_layer
 from treadload.damage.quantity import Place, Quantity, Reading
 from treadload.errors import InputError, nearest
 from treadload.pavement import Pavement
-from treadload.pavement.roles import ROLES, layer_of_role
+from treadload.pavement.roles import ROLES, lacks_role, layer_of_role
 from treadload.read import As, Choice, TargetTable, guarded, made_by, parameters
 from treadload.registry import CRITERIA
 from treadload.response import MATERIAL_LENGTH
@@ -101,6 +101,31 @@ CRITERION = Choice(
     base=CriterionTable,
 )
 Criterion = Annotated[Any, CRITERION]
+
+
+def is_of_absent(criterion: CriterionTable, road: Pavement, absent: Mapping[int, str]) -> bool:
+    """True of a criterion whose layer a road does not have because it is absent.
+
+    absent: names of the absent layers by their numbers in the table of the case, from 0.
+    """
+    table: Any = criterion
+    if not absent or table.layer is None:
+        return False
+    if isinstance(table.layer, int):
+        return table.layer - 1 in absent
+    wanted = table.layer.casefold().strip()
+    if any(wanted == layer.name.casefold() for layer in road.layers):
+        return False
+    return wanted in {name.casefold() for name in absent.values()} or lacks_role(road, wanted)
+
+
+def without_absent(criterion: CriterionTable, absent: Mapping[int, str]) -> CriterionTable:
+    """The criterion with its layer's number, if it has one, counted without the absent layers above."""
+    table: Any = criterion
+    if not absent or not isinstance(table.layer, int):
+        return criterion
+    above = sum(number < table.layer - 1 for number in absent)
+    return criterion.model_copy(update={"layer": table.layer - above})
 
 
 def quantity_of(table: Mapping[str, object]) -> Quantity | None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.climate import AgeingPart, ClimatePart
-from treadload.case.criteria import Criterion
+from treadload.case.criteria import Criterion, CriterionTable, is_of_absent, without_absent
 from treadload.case.file import FilePart
 from treadload.case.road import PavementPart
 from treadload.case.tire import TirePart
@@ -21,6 +21,10 @@ from treadload.pavement import Pavement, Relief
 from treadload.read import As
 from treadload.tire import Tire
 from treadload.units import Length, Number
+
+
+def _layer_in_words(layer: int | str) -> str:
+    return f"layer {layer}" if isinstance(layer, int) else layer
 
 
 class Description(FilePart):
@@ -106,8 +110,41 @@ class Description(FilePart):
 
     def build_criteria(self) -> tuple[Judge, ...]:
         """The criteria on this road."""
+        return self.criteria_on(self.road())
+
+    def criteria_on(self, road: Pavement) -> tuple[Judge, ...]:
+        """The criteria on a road with the layers of this case, less those of layers that are absent."""
+        kept = [criterion for criterion in self.criteria if not self._is_of_absent(criterion, road)]
+        if self.criteria and not kept:
+            names = ", ".join(repr(str(criterion.name)) for criterion in self.criteria)
+            raise InputError(
+                f"no criterion is left: the layers of {names} are absent, with a thickness of 0; add one of a layer "
+                "that is there"
+            )
+        absent = self._absent
+        return tuple(without_absent(criterion, absent).on(road) for criterion in kept)
+
+    @property
+    def left_out(self) -> tuple[str, ...]:
+        """A sentence for each criterion whose layer is absent."""
+        if not self._absent:
+            return ()
         road = self.road()
-        return tuple(criterion.on(road) for criterion in self.criteria)
+        return tuple(
+            f"criterion {criterion.name!r} is not evaluated: the road has no {_layer_in_words(criterion.layer)}"
+            for criterion in self.criteria
+            if self._is_of_absent(criterion, road)
+        )
+
+    @property
+    def _absent(self) -> dict[int, str]:
+        """Names of the absent layers by their numbers."""
+        part = self.pavement
+        layers = () if part is None else part.layers or ()
+        return {} if part is None else {number: layers[number].label for number in part.absent}
+
+    def _is_of_absent(self, criterion: CriterionTable, road: Pavement) -> bool:
+        return is_of_absent(criterion, road, self._absent)
 
     @property
     def has_elastic_tire(self) -> bool:

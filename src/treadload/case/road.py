@@ -25,8 +25,9 @@ class LayerPart(Table):
     """`[[pavement.layers]]`, from the surface down; the last one has no thickness unless the base is rigid.
 
     material: a table; or mix. mix: a name of the catalogue of road materials. thickness: left out, the layer is
-    semi-infinite. bond: to the layer below, "bonded", "half-bonded", "frictionless", `{ stiffness = "1000 MPa/m" }`
-    or of another kind. name: left out, that of the mix. plasticity: how an elastic material yields.
+    semi-infinite; 0, it is absent, and the layers around it meet with the bond of the upper. bond: to the layer
+    below, "bonded", "half-bonded", "frictionless", `{ stiffness = "1000 MPa/m" }` or of another kind. name: left out,
+    that of the mix. plasticity: how an elastic material yields.
     """
 
     one_of: ClassVar = ("material", "mix")
@@ -49,9 +50,12 @@ class LayerPart(Table):
 
     def build(self, frequency: float | None = None) -> Layer:
         """The layer; a mix at a frequency of loading, Hz, is read there."""
-        return Layer(
-            self._material(frequency), self.thickness, name=self.name or self.mix or "", bond=BOND.build(self.bond)
-        )
+        return Layer(self._material(frequency), self.thickness, name=self.label, bond=BOND.build(self.bond))
+
+    @property
+    def label(self) -> str:
+        """Its name, else that of its mix."""
+        return self.name or self.mix or ""
 
     def _material(self, frequency: float | None) -> Material | TemperatureDependent | ElastoPlastic | StressDependent:
         if self.material is not None:
@@ -98,16 +102,24 @@ class RoadPart(Table):
             raise ValueError(f"give either layers or the name of a structure, got {got} of them")
         if self.structure is not None and self.rigid_base:
             raise ValueError("a structure of the catalogue has its own base; rigid_base belongs to layers")
+        if self.layers is not None and len(self.absent) == len(self.layers):
+            raise ValueError(f"the thickness of all {len(self.layers)} layers is 0, so that no road is left")
         # Refused at its own key, whoever asks for the road first.
         self.untempered()
         return self
+
+    @property
+    def absent(self) -> tuple[int, ...]:
+        """Numbers of the layers of thickness 0, which the road does not have, from 0 at the surface."""
+        return tuple(number for number, layer in enumerate(self.layers or ()) if layer.thickness == 0)
 
     def untempered(self) -> Pavement:
         """The pavement whose materials still wait for their temperature."""
         if self.structure is not None:
             return Pavement.from_catalogue(self.structure, frequency=self.frequency)
         assert self.layers is not None
-        return Pavement([layer.build(self.frequency) for layer in self.layers], rigid_base=self.rigid_base)
+        layers = [layer.build(self.frequency) for layer in self.layers if layer.thickness != 0]
+        return Pavement(layers, rigid_base=self.rigid_base)
 
 
 def _waits(part: object) -> bool:
@@ -153,4 +165,6 @@ class PavementPart(RoadPart):
 
     def _temperature(self) -> float | tuple[float, ...] | TemperatureProfile:
         temperature: float | tuple[float, ...] | TemperatureProfile = TEMPERATURE.build(self.temperature)
+        if self.absent and isinstance(temperature, tuple) and len(temperature) == len(self.layers or ()):
+            temperature = tuple(value for number, value in enumerate(temperature) if number not in self.absent)
         return temperature

@@ -25,18 +25,32 @@ def layer_of_role(road: Pavement, role: str) -> int | None:
     by cement if its name contains such a word; otherwise it is neither below 700 MPa, see `is_bituminous`. Raises
     InputError for a road without such a layer, and where a stiff elastic layer may be either.
     """
-    wanted = role.casefold().strip()
-    wanted = _ALSO.get(wanted, wanted)
+    wanted = _role(role)
     if wanted not in ROLES:
         return None
     if wanted in (TOP, SUBGRADE):
         return 0 if wanted == TOP else len(road.layers) - 1
-    bound = [number for number, layer in enumerate(road.layers[:-1]) if _kind(layer, number) == wanted]
+    bound = _bound(road, wanted)
     if not bound:
         listed = ", ".join(f"{number} {layer.name!r}" for number, layer in enumerate(road.layers, start=1))
         what = "asphalt" if wanted == ASPHALT else "bound by cement"
         raise InputError(f"no layer of the road is {what}, so that it has no {wanted}; it has {listed}")
     return bound[-1]
+
+
+def lacks_role(road: Pavement, role: str) -> bool:
+    """True of a role that no layer of a road has. Raises InputError where a stiff elastic layer may have it."""
+    wanted = _role(role)
+    return wanted in (ASPHALT, CEMENT) and not _bound(road, wanted)
+
+
+def _role(text: str) -> str:
+    wanted = text.casefold().strip()
+    return _ALSO.get(wanted, wanted)
+
+
+def _bound(road: Pavement, role: str) -> list[int]:
+    return [number for number, layer in enumerate(road.layers[:-1]) if _kind(layer, number) == role]
 
 
 def _kind(layer: Layer, number: int) -> str | None:

@@ -28,7 +28,7 @@ def design_of(case: Case, contacts: Contacts | None = None) -> Design:
         case.build_traffic(),
         case.build_climate(),
         case.build_criteria(),
-        criteria_of=lambda road: tuple(criterion.on(road) for criterion in case.criteria),
+        criteria_of=case.criteria_on,
         rutting=None if case.rutting is None else case.rutting.build(),
         scatter=None if case.reliability is None else case.reliability.build(),
         spacing=spacing_of(case),

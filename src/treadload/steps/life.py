@@ -104,7 +104,7 @@ class LifeStep(Source, name="life"):
         workers, progress = scene.options.workers, scene.progress.count
         life = solve_life(scene.design, workers=workers, progress=progress)
         longer = longer_by_ageing(scene.design, life, workers=workers, progress=progress)
-        return replace(life, warnings=(*life.warnings, *longer))
+        return replace(life, warnings=(*life.warnings, *longer, *case.left_out))
 
     def numbers(self, scene: Scene) -> xr.Dataset:
         """Numbers of every criterion, and which fails first."""

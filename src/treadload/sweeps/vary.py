@@ -16,6 +16,7 @@ from treadload.case.keys import find_key
 from treadload.errors import InputError, nearest
 from treadload.files import EXCEL
 from treadload.results.sheets import numbered_rows
+from treadload.sweeps.absent import absent_in, layer_columns
 from treadload.sweeps.design import ROW, Design, listed, product
 from treadload.sweeps.sampling import bounds_of, sampled
 from treadload.tables import NO_DATA, read_table
@@ -91,12 +92,15 @@ def _values(case: Case, name: str, text: str) -> list[object]:
     return [float(f"{value:.12g}") for value in values]
 
 
-def from_file(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = ()) -> Design:
+def from_file(
+    case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = (), absent_layers: bool = False
+) -> Design:
     """Cases from a CSV file or the first visible sheet of an Excel workbook: headings are keys, rows are cases.
 
     A heading may carry a unit, "normal_load [kN]"; a cell may, too. ids: headings of columns that only identify a row
-    and go through to the results, as `IDS` do without being listed; so does the number of the row. A row that cannot
-    be read fails alone. Raises InputError.
+    and go through to the results, as `IDS` do without being listed; so does the number of the row. absent_layers:
+    True where a layer all of whose cells are empty is absent in the row, as it is with a thickness of 0. A row that
+    cannot be read fails alone. Raises InputError.
     """
     path = Path(path)
     head, rows = _read(path)
@@ -114,18 +118,23 @@ def from_file(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = 
     labels: dict[str, list[str | int]] = {ROW: [], **{name: [] for name in called.values()}}
     cases: list[dict[str, Any]] = []
     faults: dict[int, str] = {}
+    layers = layer_columns(case, [name for name in names if name not in chosen])
     for number, (line, row) in enumerate(rows):
         cells = dict(zip(names, [*row, *[None] * len(names)], strict=False))
         labels[ROW].append(line)
         for name in chosen:
             labels[called[name]].append(_label(cells[name]))
         wanted = {name: unit for name, unit in columns if name not in chosen}
-        empty = [name for name in wanted if _is_empty(cells[name])]
+        absent = absent_in(layers, cells, wanted, empty_is_absent=absent_layers)
+        empty = [name for name in wanted if name not in absent and _is_empty(cells[name])]
         if any(not _is_empty(cell) for cell in row[len(names) :]) or len(row) < len(names):
             faults[number] = f"{len(row)} values where the header has {len(names)}"
         elif empty:
             faults[number] = f"no value of {', '.join(empty)}"
-        cases.append({name: None if name in empty else _cell(cells[name], unit) for name, unit in wanted.items()})
+            if absent_layers and any(layer.thickness in empty for layer in layers):
+                faults[number] += "; give a thickness of 0 where the layer is absent"
+        read = {name: None if name in empty else _cell(cells[name], unit) for name, unit in wanted.items()}
+        cases.append({**read, **absent})
     if rows and len(faults) == len(rows):
         raise InputError(f"{path}, line {rows[0][0]}: {faults[0]}; no row of the table can be read")
     return listed(case, cases, labels=labels, faults=faults)

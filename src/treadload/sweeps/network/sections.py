@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from treadload.sweeps.design import ROW, Design
 from treadload.sweeps.vary import from_file, headings
 from treadload.units import quantity
 
-POSITION, STATION, AGE = "position", "station", "age"
+POSITION, STATION, AGE, LENGTH = "position", "station", "age", "length"
 """Columns of a table of sections beside its ids and the keys of the case."""
 _YEARS = ("", "year", "years", "yr", "a")
 # A road older than this is a mistake: a year of opening in place of an age.
@@ -28,13 +28,19 @@ class Sections:
     """Sections of a network.
 
     design: a case for each, its faults with the reasons. names: of the sections, all different. position: along the
-    road, m, NaN where the table has none. age: years since the opening, 0 where the table has none.
+    road, m, NaN where the table has none. age: years since the opening, 0 where the table has none. length: m, NaN
+    where the table has none.
     """
 
     design: Design
     names: tuple[str, ...]
     position: Array
     age: Array
+    length: Array = field(default_factory=lambda: np.zeros(0))
+
+    def __post_init__(self) -> None:
+        if not len(self.length):
+            object.__setattr__(self, "length", np.full(self.design.count, math.nan))
 
     @property
     def has_age(self) -> bool:
@@ -45,26 +51,32 @@ class Sections:
 def read_sections(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str] = ()) -> Sections:
     """The sections in a CSV file or an Excel sheet, a row each.
 
-    Headings are ids, keys of the case, and three of a network: `station`, an id, or with a unit of length, "station
-    [km]", a place along the road; `position [m]`, that place; `age [years]`, since the opening. ids: as in
-    `sweeps.from_file`. A row that cannot be read fails alone. Raises InputError.
+    Headings are ids, keys of the case, and four of a network: `station`, an id, or with a unit of length, "station
+    [km]", a place along the road; `position [m]`, that place; `age [years]`, since the opening; `length [m]`. ids: as
+    in `sweeps.from_file`. A layer whose thickness is 0 is absent in its section, and so is one below the
+    surface all of whose cells are empty. A row that cannot be read fails alone. Raises InputError.
     """
     units = dict(headings(path))
-    by_kind = {name.casefold(): name for name in units if name.casefold() in (POSITION, STATION, AGE)}
-    design = from_file(case, path, ids=[*ids, *by_kind.values()])
+    by_kind = {name.casefold(): name for name in units if name.casefold() in (POSITION, STATION, AGE, LENGTH)}
+    design = from_file(case, path, ids=[*ids, *by_kind.values()], absent_layers=True)
     column = next((by_kind[kind] for kind in (POSITION, STATION) if units.get(by_kind.get(kind, ""))), None)
     if column is None and POSITION in by_kind:
         raise InputError(f"column {by_kind[POSITION]!r} needs its unit in the heading, such as position [km]")
+    if LENGTH in by_kind and not units.get(by_kind[LENGTH]):
+        raise InputError(f"column {by_kind[LENGTH]!r} needs its unit in the heading, such as length [km]")
     faults = dict(design.faults)
     position: Array = np.full(design.count, math.nan)
     age: Array = np.zeros(design.count)
+    length: Array = np.full(design.count, math.nan)
     if column is not None:
         position = _numbers(design, column, units[column], faults)
     if AGE in by_kind:
         age = _ages(design, by_kind[AGE], units.get(by_kind[AGE], ""), faults)
+    if LENGTH in by_kind:
+        length = _lengths(design, by_kind[LENGTH], units[by_kind[LENGTH]], faults)
     design = replace(design, faults=dict(sorted(faults.items())))
-    numeric = {name for name in (column, by_kind.get(AGE)) if name is not None}
-    return Sections(design, _names(design, numeric | {ROW}, column), position, age)
+    numeric = {name for name in (column, by_kind.get(AGE), by_kind.get(LENGTH)) if name is not None}
+    return Sections(design, _names(design, numeric | {ROW}, column), position, age, length)
 
 
 def _numbers(design: Design, column: str, unit: str, faults: dict[int, str]) -> Array:
@@ -75,6 +87,23 @@ def _numbers(design: Design, column: str, unit: str, faults: dict[int, str]) -> 
             values[number] = quantity(f"{text} {unit}", "m")
         except InputError as error:
             faults.setdefault(number, f"{column}: {error}" if str(text).strip() else f"no value of {column}")
+    return values
+
+
+def _lengths(design: Design, column: str, unit: str, faults: dict[int, str]) -> Array:
+    """Lengths of the sections, m; NaN where the table has none, which is no fault: a life does not depend on it."""
+    values = np.full(design.count, math.nan)
+    for number, text in enumerate(design.labels[column]):
+        if str(text).strip():
+            try:
+                length = quantity(f"{text} {unit}", "m")
+            except InputError as error:
+                faults.setdefault(number, f"{column}: {error}")
+                continue
+            if length > 0:
+                values[number] = length
+            else:
+                faults.setdefault(number, f"{column} must be above 0, got {text} {unit}; leave it empty if unknown")
     return values
 
 

@@ -31,7 +31,8 @@ class Network(BaseResult, group="network"):
     """Remaining service life of the sections of a network.
 
     dataset: over `section`: governing_years from the opening, remaining_years, which are these less section_age,
-    section_rank from 1 for the least, section_position, section_status; life_years (section, criterion);
+    section_rank from 1 for the least, section_position, section_status, section_length where the table has
+    one; life_years (section, criterion);
     governing_criterion and reason as texts. NaN where a section failed or was not solved. stats: sections, seconds.
     warnings: sentences for the user.
     """
@@ -43,6 +44,7 @@ class Network(BaseResult, group="network"):
             "life_years": "section criterion",
             "governing_years remaining_years section_age section_position section_rank section_status": "section",
         },
+        maybe={"section_length": "section"},
         labels={
             "section": "section",
             "criterion": "criterion",
@@ -97,10 +99,11 @@ class Network(BaseResult, group="network"):
         if good.any():
             remaining = data["remaining_years"].to_numpy()[good]
             low, middle, high = np.quantile(remaining, [0.25, 0.5, 0.75], method="nearest")
-            note = f"a quarter of the sections: {remaining_in_words(low)} or less, a quarter: "
-            note += f"{remaining_in_words(high)} or more"
+            note = f"the middle half of the sections from {remaining_in_words(low)} to {remaining_in_words(high)}"
             rows.append(row("remaining_years", middle, label="remaining life (median)", note=note))
             rows.append(row("remaining_bands", "; ".join(f"{count} {band}" for band, count in bands(remaining))))
+            if "section_length" in data:
+                rows.append(row("remaining_lengths", _lengths(remaining, data["section_length"].to_numpy()[good])))
             governing = Counter(map(str, data["governing_criterion"].to_numpy()[good]))
             rows.append(row("governing", "; ".join(f"{name} ({count})" for name, count in governing.most_common())))
             rows += list(self._first())
@@ -133,8 +136,17 @@ def ranking(data: xr.Dataset) -> IntArray:
     return kept
 
 
-def bands(remaining: Array) -> list[tuple[str, int]]:
-    """How many of some remaining lives, years, lie between the `BANDS`, in words."""
+def _lengths(remaining: Array, length: Array) -> str:
+    """Kilometres of network between the `BANDS`. length: of each section, m, NaN where it is not known."""
+    there = np.isfinite(length)
+    shares = bands(remaining[there], length[there] / 1e3)
+    return (
+        "; ".join(f"{size:.3g} km {band}" for band, size in shares) + f"; {length[there].sum() / 1e3:.3g} km in all"
+    )
+
+
+def bands(remaining: Array, sizes: Array | None = None) -> list[tuple[str, float]]:
+    """How many of some remaining lives, years, lie between the `BANDS`, in words; or the sum of their sizes."""
     edges = [-np.inf, *BANDS, np.inf]
     texts = [
         "at their end or beyond",
@@ -142,5 +154,6 @@ def bands(remaining: Array) -> list[tuple[str, int]]:
     ]
     texts.append(f"with more than {BANDS[-1]:g} years")
     # An edge belongs to the band below it.
-    counts = [int(((remaining > low) & (remaining <= high)).sum()) for low, high in itertools.pairwise(edges)]
+    within = [(remaining > low) & (remaining <= high) for low, high in itertools.pairwise(edges)]
+    counts = [int(part.sum()) if sizes is None else float(sizes[part].sum()) for part in within]
     return list(zip(texts, counts, strict=True))

@@ -78,7 +78,9 @@ def network_of(study: Sweep, listed: Sections) -> Network:
     if "life_years" in data:
         solved_names = [str(name) for name in data["criterion"].to_numpy()]
         for number, name in enumerate(criteria):
-            by_criterion[:, number] = data["life_years"].to_numpy()[:, solved_names.index(name)]
+            # A criterion whose layer no section has is not among them.
+            if name in solved_names:
+                by_criterion[:, number] = data["life_years"].to_numpy()[:, solved_names.index(name)]
     reasons = np.full(count, "", dtype=object)
     for number, reason in study.failures:
         reasons[number] = reason
@@ -89,6 +91,7 @@ def network_of(study: Sweep, listed: Sections) -> Network:
         "remaining_years": (over, remaining),
         "section_age": (over, listed.age),
         "section_position": (over, listed.position),
+        **({"section_length": (over, listed.length)} if np.isfinite(listed.length).any() else {}),
         "section_rank": (over, ranks_of(remaining)),
         "section_status": (over, status),
     }
@@ -118,6 +121,18 @@ def _design_years(case: Case) -> dict[str, float]:
     return {} if years is None else {"design_years": float(years)}
 
 
+def _absent_in_words(listed: Sections) -> str:
+    """How many sections are solved without which layer; "" for none."""
+    parts = []
+    for variable in listed.design.inputs:
+        if variable.key.endswith(".thickness"):
+            rows = [k for k, value in enumerate(variable.values) if k not in listed.design.faults and value == 0]
+            if rows:
+                layer = variable.name.removeprefix("thickness_")
+                parts.append(f"{layer} in {len(rows)} section(s), such as {listed.names[rows[0]]}")
+    return f"solved without a layer whose thickness is 0 or left empty: {'; '.join(parts)}" if parts else ""
+
+
 def _warnings(study: Sweep, listed: Sections, data: xr.Dataset) -> tuple[str, ...]:
     texts = [str(study.dataset.attrs["damage"])] if study.dataset.attrs.get("damage") else []
     solved = int((data["section_status"] == SOLVED).sum())
@@ -128,6 +143,25 @@ def _warnings(study: Sweep, listed: Sections, data: xr.Dataset) -> tuple[str, ..
         names = ", ".join(listed.names[k] for k in failed[:_LISTED])
         more = f" and {len(failed) - _LISTED} more" if len(failed) > _LISTED else ""
         texts.append(f"{len(failed)} of {len(listed.names)} sections failed: {names}{more}")
+    remaining = data["remaining_years"].to_numpy()
+    over = np.flatnonzero(remaining < 0)
+    if len(over):
+        worst = int(np.nanargmin(remaining))
+        texts.append(
+            f"{len(over)} of {solved} sections have no remaining life: by the criterion that governs them, their "
+            f"service life is over, at {listed.names[worst]} since {-remaining[worst]:.3g} years. Where such a road "
+            "is still sound, the computed life is too short for it: check its moduli, traffic and age, and the "
+            "scatter of the law"
+        )
+    without = np.flatnonzero((data["section_status"].to_numpy() == SOLVED) & np.isnan(listed.length))
+    if np.isfinite(listed.length).any() and len(without):
+        texts.append(
+            f"{len(without)} solved sections have no length, such as {listed.names[without[0]]}; they are not in the "
+            "sums of lengths"
+        )
+    absent = _absent_in_words(listed)
+    if absent:
+        texts.append(absent)
     if not listed.has_age:
         texts.append(
             f"the table has no column {AGE}: all sections count as new, and the remaining life is the service life"
