@@ -208,3 +208,20 @@ def test_a_weather_of_months_freezes_the_base():
 def test_wrong_frost_is_refused(make, message):
     with pytest.raises(InputError, match=message):
         make()
+
+
+@pytest.mark.slow
+def test_a_life_with_frost_runs_to_its_years():
+    """Frozen months do next to no damage to the soil; those of the thaw do more than without frost."""
+    text = f'spacing = "20 mm"\n{CASE}'
+    plain = "\n".join(line for line in text.splitlines() if not line.startswith("frost"))
+    lives = [tl.run(tl.Case.from_text(case)).life for case in (text, plain)]
+    frozen, without = (float(life.dataset["life_years"][0]) for life in lives)
+    assert 0.5 * without < frozen < without
+    damage = [life.dataset["damage_share"].sum(["criterion", "axle_class"]) for life in lives]
+    # Per year, as shares of the damage are of the years.
+    yearly = [part / years for part, years in zip(damage, (frozen, without), strict=True)]
+    months = [month_of(str(name)) for name in lives[0].dataset["season"].to_numpy()]
+    thaw, winter = months.index(6), months.index(2)
+    assert float(yearly[0][thaw]) > 1.3 * float(yearly[1][thaw])
+    assert float(yearly[0][winter]) < 0.3 * float(yearly[1][winter])
