@@ -48,6 +48,8 @@ def steps(program: list[str], environment: dict[str, str], validate: bool) -> li
         for line in text.splitlines()
         if not kind and line.startswith("treadload ")
     ]
+    # A line that stands on two pages is run once: the second `treadload init` would find its file.
+    lines = [line for number, line in enumerate(lines) if line not in lines[:number]]
     found = [("version", [*program, "--version"])]
     found += [(f"{name} --help", [*program, name, "--help"]) for name in commands(program, environment)]
     found += [

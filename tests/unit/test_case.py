@@ -1,6 +1,8 @@
 import copy
 import math
+import os
 import pickle
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -9,6 +11,7 @@ import pytest
 import treadload as tl
 from cases import COARSE_CASE
 from treadload.case import Case
+from treadload.case.tire import TirePart
 
 
 def changed(old, new):
@@ -114,3 +117,27 @@ def test_a_step_that_is_none_is_not_asked_for():
     table = tomllib.loads(COARSE_CASE)
     bare = {key: value for key, value in table.items() if key != "damage"}
     assert Case.from_dict(bare | {"damage": None, "crossing": None}) == Case.from_dict(bare)
+
+
+def test_a_scan_is_read_again_only_where_it_changed(tmp_path, monkeypatch):
+    mesh = tmp_path / "wheel.obj"
+    shutil.copy(tl.tire.example_mesh(), mesh)
+    readings = []
+
+    def from_scan(path, **options):
+        readings.append(options["revolve"])
+        return tl.Tire.from_profile("315/80R22.5", name=path.stem)
+
+    monkeypatch.setattr(tl.Tire, "from_scan", from_scan)
+
+    def tire(revolve, pressure):
+        part = TirePart(scan="wheel.obj", revolve=revolve, inflation_pressure=pressure)
+        return part.build(tmp_path)
+
+    first, harder = tire(True, 7e5), tire(True, 8e5)
+    assert (first.inflation_pressure, harder.inflation_pressure, harder.name) == (7e5, 8e5, "wheel")
+    assert readings == [True]
+    tire(False, 7e5)
+    os.utime(mesh, ns=(1, 1))
+    tire(False, 7e5)
+    assert readings == [True, False, False]

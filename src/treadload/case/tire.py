@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal
 
@@ -122,20 +124,15 @@ class TirePart(Table):
         if self.scan is not None:
             path = example_mesh() if self.scan == EXAMPLE else folder / self.scan
             assert not isinstance(self.units, dict)
-            return Tire.from_scan(
-                path,
-                units=self.units,
-                nominal_diameter=self.nominal_diameter,
-                rotation=self.rotation,
-                camber=self.camber,
-                revolve=self.revolve,
-                fill_holes=self.fill_holes,
-                smooth=self.smooth,
-                outliers=self.outliers,
-                roundness=self.roundness,
-                scale=self.scale,
-                **body,
-            )
+            options: dict[str, Any] = {
+                "units": self.units, "nominal_diameter": self.nominal_diameter, "rotation": self.rotation,
+                "camber": self.camber, "revolve": self.revolve, "fill_holes": self.fill_holes, "smooth": self.smooth,
+                "outliers": self.outliers, "roundness": self.roundness, "scale": self.scale,
+            }  # fmt: skip
+            # A table of a laser's lines names files of its own, which may change while it does not.
+            if path.suffix.lower() == ".toml" or not path.is_file():
+                return Tire.from_scan(path, **options, **body)
+            return replace(_scanned(path, path.stat().st_mtime_ns, tuple(options.items())), **body)
         if self.height_map is not None:
             return Tire.from_height_map(
                 folder / self.height_map, self.cell, units=self.units, decimal=self.decimal, **body
@@ -144,3 +141,10 @@ class TirePart(Table):
         if isinstance(profile, str) and profile.endswith(".toml"):
             profile = TreadProfile.from_toml(folder / profile)
         return Tire.from_profile(profile, **body)
+
+
+# A case is built more than once, and cases of a study or of a demonstration have the same scan.
+@lru_cache(maxsize=1)
+def _scanned(path: Path, changed: int, options: tuple[tuple[str, object], ...]) -> Tire:
+    how: dict[str, Any] = dict(options)
+    return Tire.from_scan(path, **how)
