@@ -39,7 +39,7 @@ test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not browser"
 
 test-slow: $(STAMP)
-	$(BIN)/python -m pytest -n 2 --dist worksteal -m "slow and not browser"
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "slow and not browser" $(PYTEST_FLAGS)
 
 # needs Chromium: on Debian `apt-get install chromium`
 test-browser: $(STAMP)
