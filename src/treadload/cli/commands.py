@@ -49,6 +49,7 @@ for _command in (
     compare.compare,
     tires.scan,
     tires.card,
+    tires.tir,
     program.catalogue,
     program.criteria,
     page.app,

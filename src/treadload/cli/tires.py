@@ -1,4 +1,4 @@
-"""`treadload scan` and `card`: what a tire is, and what it tells under load."""
+"""`treadload scan`, `card` and `tir`: what a tire is, what it tells under load, its Magic Formula."""
 
 from __future__ import annotations
 
@@ -252,3 +252,58 @@ def card(
         )
     shell.out.print(result.summary(), markup=False)
     shell.write_files(result, output, report, f"Tire card: {question.title or case.stem}", quiet=quiet)
+
+
+def tir(
+    case: Annotated[
+        Path, typer.Argument(help="A case of `treadload run`: its tire, road, friction and speed are read.")
+    ],
+    loads: Annotated[str, typer.Option(help='Three loads of the wheel or more, "20 kN; 27.5 kN; 35 kN".')],
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="File to write, .tir.", show_default=False)
+    ] = None,
+    figure: Annotated[
+        Path | None,
+        typer.Option(help="Picture of the curves beside the fit: .png, .svg or .pdf.", show_default=False),
+    ] = None,
+    reach: Annotated[float, typer.Option(help="Factor of all slips, 0.3 to 3; 1 is κ of 0.3 and 14 degrees.")] = 1.0,
+    changes: shell.Changes = None,
+    quiet: shell.Quiet = False,
+) -> None:
+    """Fit the Magic Formula 6.1 to a tire's solved curves over slip, and write it as a .tir file."""
+    from treadload.case import Case
+    from treadload.errors import InputError
+    from treadload.files import check_writable
+    from treadload.footprint import magic_formula
+    from treadload.tire.tir_writing import check_tir_name
+    from treadload.units import quantity
+
+    if output is not None:
+        check_tir_name(output)
+    for path in (output, figure):
+        if path is not None:
+            check_writable(path)
+    question = Case.from_toml(case, changes=changes or ())
+    if question.tire is None:
+        raise InputError(f"{case} has a recorded footprint and no tire; a .tir file needs [tire]")
+    forces = [quantity(part, "N") for part in loads.split(";")]
+    with stages(shell.err, quiet=quiet) as tell:
+        result = magic_formula(
+            question.build_tire(),
+            question.road(),
+            question.build_rolling(),
+            loads=forces,
+            reach=reach,
+            spacing=question.spacing,
+            progress=tell,
+        )
+    shell.out.print(result.summary(), markup=False)
+    if output is not None:
+        shell.written([result.formula.to_file(output)])
+    if figure is not None:
+        from treadload.plots import save, tir_fit
+
+        with stages(shell.err, quiet=quiet) as tell:
+            tell("drawing")
+            picture = save(tir_fit(result), figure)
+        shell.written([picture])

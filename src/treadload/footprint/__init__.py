@@ -8,9 +8,11 @@ from treadload.footprint.measures import Measures
 from treadload.footprint.pin_sampling import sample_pins, write_pins
 from treadload.footprint.reading import is_pin_table, is_sensor_file, read_footprint
 from treadload.footprint.registration import Registration, register
+from treadload.footprint.tir_fit import FittedFormula, magic_formula
 from treadload.footprint.tire_card import TireCard, tire_card
 
 __all__ = [
+    "FittedFormula",
     "Footprint",
     "FootprintComparison",
     "Frames",
@@ -22,6 +24,7 @@ __all__ = [
     "compare",
     "is_pin_table",
     "is_sensor_file",
+    "magic_formula",
     "read_footprint",
     "register",
     "sample_pins",

@@ -94,7 +94,7 @@ def tire_card(
     Raises InputError for loads or pressures that are not positive, and as `solve_contact`.
     Sources of terms: ISO 8855:2011; Pacejka (2012), Tire and Vehicle Dynamics, chapters 1 and 5.
     """
-    forces = _listed("loads", loads, "N")
+    forces = listed_loads(loads)
     inflation = [tire.inflation_pressure or math.nan] if pressures is None else _listed("pressures", pressures, "Pa")
     if len(inflation) > 1 and tire.material is not None:
         raise InputError(
@@ -209,6 +209,11 @@ def _at(
 def _shares(contact: Contact, edges: Array) -> Array:
     pressure, y = contact.dataset["pressure"].to_numpy(), contact.dataset["y"].to_numpy()
     return shares(pressure, np.repeat(y[:, None], pressure.shape[1], axis=1), edges)
+
+
+def listed_loads(loads: Sequence[float] | Array) -> list[float]:
+    """Loads of the wheel, N, sorted. Raises InputError for none, for equal ones, and for those that are not > 0."""
+    return _listed("loads", loads, "N")
 
 
 def _listed(name: str, values: Sequence[float] | Array, unit: str) -> list[float]:

@@ -53,6 +53,7 @@ from treadload.plots.sweeps.maps import study_map, study_multiples
 from treadload.plots.sweeps.screening import morris_effects, sobol_bars, tornado_bars
 from treadload.plots.tearing import tearing
 from treadload.plots.texture import enveloped_pressure, texture_contact
+from treadload.plots.tir_fit import tir_fit
 from treadload.plots.tire_card import tire_card
 from treadload.plots.uniform import uniform_comparison
 from treadload.plots.verdict import cracks, fatigue_line
@@ -149,6 +150,7 @@ __all__ = [
     "study_slip_curve",
     "tearing",
     "texture_contact",
+    "tir_fit",
     "tire_card",
     "tornado_bars",
     "trace_rose",

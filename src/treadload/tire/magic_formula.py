@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 
 from treadload.describing import Described
 from treadload.errors import InputError, positive
+from treadload.files import write_whole
 from treadload.kernels.arrays import Array
 from treadload.kernels.magic_formula import (
     ALIGNING,
@@ -30,6 +31,7 @@ from treadload.kernels.magic_formula import (
 )
 from treadload.rows import Row, row
 from treadload.tire.tir_file import TirText, read_tir
+from treadload.tire.tir_writing import check_tir_name, tir_text
 
 Version = Literal["5.2", "6.1"]
 Signs = Literal["ISO", "SAE", "adapted SAE"]
@@ -163,6 +165,23 @@ class MagicFormula(Described):
             (*text.notes, *_remarks(text, version)),
             combines_by_ellipse=(text.text("MODEL", "FE_METHOD") or "").casefold() == "yes",
         )
+
+    def to_file(self, path: str | os.PathLike[str]) -> Path:
+        """Write a .tir file of version 6.1 in SI units, whole or not at all; its signs and notes are comments.
+
+        Reading it gives the same forces. Raises InputError for version 5.2, whose terms 6.1 evaluates otherwise, for
+        a mirrored tire, which the format cannot state, and for a name that does not end in .tir.
+        """
+        check_tir_name(path)
+        if not self.is_newer or self.is_mirrored:
+            what = "is of version 5.2: keep its file" if not self.is_newer else "is mirrored: write the tire itself"
+            raise InputError(
+                f"cannot write {os.fspath(path)}: {self._words} {what}; written are tires of version 6.1"
+            )
+        text = tir_text(
+            self.sections, signs=self.signs, side=self.side, comments=self.notes, deflection=self.deflection
+        )
+        return write_whole(path, text)
 
     @property
     def _words(self) -> str:
