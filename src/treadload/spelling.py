@@ -50,7 +50,8 @@ def _in_ascii(text: str, place: int) -> str:
     if "\udc80" <= letter <= "\udcff":
         return f"\\x{ord(letter) - 0xDC00:02x}"
     kind, _, base = unicodedata.decomposition(letter).partition(" ")
-    if kind in ("<super>", "<sub>"):
+    # Of two letters, as ™ is, they are not an exponent.
+    if kind in ("<super>", "<sub>") and " " not in base:
         mark = "^" if kind == "<super>" else "_"
         before = unicodedata.decomposition(text[place - 1]) if place else ""
         plain = chr(int(base, 16))

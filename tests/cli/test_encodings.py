@@ -87,6 +87,7 @@ def test_signs_are_spelt_as_an_engineer_would():
     assert spelt("σ₁ ≤ 10⁻⁶ µm², μ = 0.7, 3.35·10⁶ at 40 °C …", "ascii") == (
         "sigma_1 <= 10^-6 um^2, mu = 0.7, 3.35*10^6 at 40 degC ..."
     )
+    assert spelt("Tread™ ℠", "ascii") == "TreadTM SM"
 
 
 def test_summaries_can_be_printed_from_python(monkeypatch, coarse_contact):

@@ -253,6 +253,8 @@ def test_an_interruption_while_its_handlers_are_set_is_one_sentence():
     program = """
 import signal, sys
 from treadload.cli import main
+# A command in the background has inherited that interruptions are ignored.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 set_handler = signal.signal
 def interrupted(number, handler):
     before = set_handler(number, handler)
