@@ -30,10 +30,10 @@ def test_roundabout(tmp_path, capsys):
         for name, strain in strains.items():
             assert float(found[road].deep.sel(maneuver=name)) * 1e6 == pytest.approx(strain, rel=0.08), (road, name)
     # The structure bends: under a wheel that rolls straight its surface is pressed together in the plane, and what
-    # `assess` reads lies beyond the contact's map, where the basin's side is bent upwards: 8.4 microstrain.
+    # `assess` reads lies beyond the contact's map, where the basin's side is bent upwards: 8.0 microstrain.
     straight = found[STRUCTURE].sel(maneuver="straight")
     assert float(straight.in_plane) < 0 < float(straight.deep)
-    assert float(straight["read"]) == pytest.approx(8.4e-6, rel=0.05)
+    assert float(straight["read"]) == pytest.approx(7.96e-6, rel=0.02)
     mix = tl.catalogue.mixes["EB-BBSG3"]
     line = tl.FatigueLine(mix.epsilon_6, mix.slope)
     assert float(straight.passes) == pytest.approx(float(line.allowable_passes(float(straight["read"]))), rel=1e-6)
