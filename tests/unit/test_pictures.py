@@ -1,5 +1,8 @@
 """Pictures of a page: what cannot be drawn leaves a sentence in its place."""
 
+import os
+import signal
+import time
 import warnings
 
 import pytest
@@ -40,3 +43,27 @@ def test_a_figure_without_extent_leaves_a_sentence(draw):
 
 def test_citations_too_deep_in_each_other_are_none():
     assert read_json("[" * 3000, []) == []
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="processes are not forked")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded:DeprecationWarning")
+def test_a_forked_process_encodes_its_pictures_too():
+    """It inherited the pool of its parent and none of its threads, and waited for ever."""
+    assert len(picture("Parent", "", Figure)) == 1
+    child = os.fork()
+    if not child:
+        # 0 if there is a picture, else 1; nothing of pytest's may run in this process.
+        code = 1
+        try:
+            code = int(not picture("Child", "", Figure)[0].source.startswith("data:"))
+        finally:
+            os._exit(code)
+    until = time.monotonic() + 60
+    done, status = 0, -1
+    while not done and time.monotonic() < until:
+        done, status = os.waitpid(child, os.WNOHANG)
+        time.sleep(0.02)
+    if not done:
+        os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    assert (done, os.waitstatus_to_exitcode(status)) == (child, 0)

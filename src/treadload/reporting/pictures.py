@@ -5,6 +5,7 @@ from __future__ import annotations
 import base64
 import functools
 import io
+import os
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -68,6 +69,11 @@ def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = F
 def _encoders() -> ThreadPoolExecutor:
     # Pillow encodes without Python's lock: beside the drawing of the next figure.
     return ThreadPoolExecutor(1, thread_name_prefix="treadload-pictures")
+
+
+if hasattr(os, "register_at_fork"):
+    # A process that was forked has the pool and not its thread: it would wait for ever.
+    os.register_at_fork(after_in_child=_encoders.cache_clear)
 
 
 def pictures_of(
