@@ -50,3 +50,19 @@ risk = 0.05
 name = "soil"
 law = "french-subgrade"
 """
+
+
+def belted_truck(spacing: str, friction: float) -> str:
+    """A truck tire on its belt under 20 kN, on asphalt as a half-space."""
+    return f"""
+spacing = "{spacing}"
+[tire]
+profile = "315/80R22.5"
+inflation_pressure = "8 bar"
+belt = "315/80R22.5"
+[[pavement.layers]]
+material = {{ kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }}
+[rolling]
+normal_load = "20 kN"
+friction = {friction}
+"""

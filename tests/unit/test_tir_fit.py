@@ -9,6 +9,7 @@ import pytest
 from typer.testing import CliRunner
 
 import treadload as tl
+from cases import belted_truck
 from treadload.cli import app
 from treadload.errors import InputError, WriteError
 from treadload.footprint import magic_formula
@@ -18,18 +19,6 @@ ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=800e3, belt=tl.tire.Belt.from_library("315/80R22.5"))
 WHEEL = tl.Rolling(normal_load=20e3, friction=0.75)
 LOADS = [22e3, 30e3, 38e3]
-CASE = """
-spacing = "25 mm"
-[tire]
-profile = "315/80R22.5"
-inflation_pressure = "8 bar"
-belt = "315/80R22.5"
-[[pavement.layers]]
-material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }
-[rolling]
-normal_load = "20 kN"
-friction = 0.75
-"""
 
 
 @pytest.fixture(scope="module")
@@ -177,7 +166,7 @@ def test_a_tire_that_leans_or_pulls_is_refused(monkeypatch):
 @pytest.mark.slow
 def test_the_command_writes_and_draws_a_tire(tmp_path):
     case, path, figure = tmp_path / "case.toml", tmp_path / "truck.tir", tmp_path / "truck.png"
-    case.write_text(CASE)
+    case.write_text(belted_truck("25 mm", 0.75))
     arguments = ["tir", str(case), "--quiet", "-o", str(path), "--figure", str(figure)]
     done = CliRunner().invoke(app, [*arguments, "--loads", "22 kN; 30 kN; 38 kN"])
     assert done.exit_code == 0, done.output
@@ -190,7 +179,7 @@ def test_the_command_writes_and_draws_a_tire(tmp_path):
 
 def test_the_command_refuses_before_it_solves(tmp_path):
     case = tmp_path / "case.toml"
-    case.write_text(CASE)
+    case.write_text(belted_truck("25 mm", 0.75))
     for more, words in (
         (["--loads", "20 kN; 30 kN"], "3 loads or more, got 2"),
         (["--loads", "20 kN; 30 kN; 40 kN", "-o", str(tmp_path / "a.nc")], "tire property file"),

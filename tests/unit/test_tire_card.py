@@ -8,6 +8,7 @@ import pytest
 from typer.testing import CliRunner
 
 import treadload as tl
+from cases import belted_truck
 from treadload.cli import app
 from treadload.errors import InputError
 from treadload.tire import ProfileSurface, TreadProfile
@@ -133,20 +134,7 @@ def test_a_half_space_feels_no_inflation():
 
 def test_the_command_prints_and_writes_a_card(tmp_path):
     case = tmp_path / "case.toml"
-    case.write_text(
-        """
-        spacing = "12 mm"
-        [tire]
-        profile = "315/80R22.5"
-        inflation_pressure = "8 bar"
-        belt = "315/80R22.5"
-        [[pavement.layers]]
-        material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }
-        [rolling]
-        normal_load = "20 kN"
-        friction = 0.7
-        """
-    )
+    case.write_text(belted_truck("12 mm", 0.7))
     told = ["card", str(case), "--no-stiffness", "--quiet"]
     made = CliRunner().invoke(
         app, [*told, "--loads", "15 kN; 25 kN", "--pressures", "7 bar; 8 bar", "-o", str(tmp_path / "card.nc")]

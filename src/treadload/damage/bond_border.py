@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from treadload.composing import Source
-from treadload.damage.border import Beyond, beyond_the_map
+from treadload.damage.border import LARGER, Beyond, beyond_the_map
 from treadload.damage.laws.bond import BondStrength
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
@@ -17,8 +17,6 @@ from treadload.response.basin import basin_reach
 # Beyond the map a utilisation counts where the shear is this part of the map's largest: below, friction alone would
 # divide what is left of the shear by what is left of the pressure.
 _FELT = 1e-3
-# What is larger than the map's own by less is the same maximum.
-_LARGER = 1 + 1e-5
 
 
 @dataclass(frozen=True)
@@ -59,9 +57,9 @@ def worst_of_bond(
         sentence = "utilisation largest at the edge of the points; solve it further out"
         if isinstance(source, Response) and source.road is not None:
             sentence += f", {basin_reach([source.road]):.2g} m for the whole basin of this road"
-        return WorstOfBond(worst.utilisation, worst.x, worst.y, worst.shear, worst.pressure, sentence)
+        return replace(worst, sentence=sentence)
     beyond, at_place = further
-    if not at_place.utilisation > _LARGER * worst.utilisation:
+    if not at_place.utilisation > LARGER * worst.utilisation:
         return worst
     text = (
         f"utilisation largest at the edge of the points, {worst.utilisation:.3g}; solved further, to "
@@ -70,7 +68,7 @@ def worst_of_bond(
     )
     if beyond.at_end:
         text += ", still at the end, so that a larger one may lie beyond"
-    return WorstOfBond(at_place.utilisation, at_place.x, at_place.y, at_place.shear, at_place.pressure, text)
+    return replace(at_place, sentence=text)
 
 
 def _on_edge(peak: tuple[int, int], shape: tuple[int, ...]) -> bool:

@@ -35,8 +35,8 @@ _INSIDE = 24
 _FINER, _ZOOMS = 9, 2
 # A value beyond the map this part of its largest may be larger between the points.
 _RIVAL = 0.97
-# Fields that are good enough for a search err by a tenth of this.
-_LARGER = 1 + 1e-5
+LARGER = 1 + 1e-5
+"""A value beyond a map is larger from this factor on: fields good enough for a search err by a tenth of it."""
 # Where no crack opens in a map, one beyond counts from this part of its largest tensile strain.
 _FLOOR = 1e-3
 
@@ -91,7 +91,7 @@ def beyond_the_map(
         at = tuple(_stretched(inside, *reach) for inside, reach in zip(kept, more, strict=True))
         further_values = evaluate(at[1], at[0])
         # Nothing beyond is as large as what lies at the map's end: that is a maximum.
-        if np.nanmax(further_values) > most * _LARGER:
+        if np.nanmax(further_values) > most * LARGER:
             ends = _ends(further_values, at)
         elif np.nanmax(values) > 0:
             ends = []
@@ -170,7 +170,7 @@ def evaluated_further(response: Source, field: Field, means: Means | None) -> tu
     x, y = (field.data[name].to_numpy() for name in ("x", "y"))
     floor = _FLOOR * max(float(np.nanmax(field.extension)), 0.0)
     beyond = beyond_the_map(field.value, x, y, more.values, basin_reach([response.road]), floor)
-    if beyond is None or not beyond.value > max(_LARGER * field.most, floor):
+    if beyond is None or not beyond.value > max(LARGER * field.most, floor):
         return None, beyond
     exact = more.at(np.array([beyond.x]), np.array([beyond.y]))
     return exact, replace(beyond, value=exact.most)
@@ -294,7 +294,7 @@ def border_in_words(response: Source, field: Field, beyond: Beyond | None) -> li
             f"{text}; {solved} ({beyond.enlargements} enlargements), and the largest, {there}, still lies at the "
             "end, so that a larger one may lie beyond" + (f": {wide}" if wide else "")
         ]
-    if beyond.value > _LARGER * most:
+    if beyond.value > LARGER * most:
         return [f"{text}; {solved}, and the assessment is that of the largest, {there}"]
     return []
 

@@ -11,6 +11,7 @@ from pathlib import Path
 
 from treadload.errors import InputError, nearest
 from treadload.kernels.magic_formula import DEFAULTS
+from treadload.units import PSI
 
 SIGNS = ("ISO", "SAE", "adapted SAE")
 """Systems of axes: ISO 8855 (y left, z up), SAE J670 (y right, z down), and SAE with α positive to the left, which
@@ -38,7 +39,7 @@ _UNITS: Mapping[str, Mapping[str, float]] = {
     "TIME": {"second": 1.0, "sec": 1.0, "s": 1.0, "millisecond": 1e-3, "ms": 1e-3, "minute": 60.0, "hour": 3600.0},
     "PRESSURE": {
         "pascal": 1.0, "pa": 1.0, "kilopascal": 1e3, "kpascal": 1e3, "kpa": 1e3, "megapascal": 1e6, "mpa": 1e6,
-        "bar": 1e5, "psi": 6894.757293168,
+        "bar": 1e5, "psi": PSI,
     },
 }  # fmt: skip
 _RADIANS = ("rad", "radian", "radians")
