@@ -391,13 +391,17 @@ _BASINS = {
     ),
     "measured_deflection": ("m", "peak deflection that a sensor measured, down"),
     "fitted_deflection": ("m", "deflection of the fitted layers, down"),
-    "fitted_modulus": ("Pa", "Young's modulus of a layer that fits the deflections, or that was fixed"),
+    "fitted_modulus": (
+        "Pa",
+        "Young's modulus of a layer that fits the deflections, or that was fixed; at the nominal stress of a law",
+    ),
     "modulus_low": ("Pa", "lower end of the 90 % interval of a fitted modulus"),
     "modulus_high": ("Pa", "upper end of the 90 % interval of a fitted modulus"),
     "modulus_deviation": (
         "1",
         "standard deviation of ln E of a fitted modulus; NaN if fixed, at a bound or not felt",
     ),
+    "law_factor": ("1", "factor on the law of a stress-dependent layer"),
     "modulus_at_reference": ("Pa", "fitted modulus at the reference temperature, by the mix of the layer"),
     "layer_thickness": ("m", "thickness of a layer, infinite for a half-space, 0 where it is absent"),
     "layer_poisson": ("1", "Poisson's ratio of a layer"),

@@ -32,3 +32,33 @@ class Anderson:
         weights = np.linalg.lstsq(basis, self.residuals[-1].ravel(), rcond=1e-10)[0]
         mixed: Array = g - np.tensordot(weights, steps + changes, 1)
         return mixed
+
+
+@dataclass
+class AndersonOfMany:
+    """The same for many iterations side by side (..., n), each with weights of its own. memory: rounds."""
+
+    memory: int
+    points: list[Array] = field(default_factory=list)
+    residuals: list[Array] = field(default_factory=list)
+
+    def next(self, x: Array, g: Array) -> Array:
+        """The next points (..., n), from points and what the iteration makes of them."""
+        self.points = [*self.points[-self.memory :], x]
+        self.residuals = [*self.residuals[-self.memory :], g - x]
+        if len(self.points) == 1:
+            return g
+        steps = np.diff(np.stack(self.points, axis=-1), axis=-1)
+        changes = np.diff(np.stack(self.residuals, axis=-1), axis=-1)
+        normal = np.einsum("...nr,...ns->...rs", changes, changes)
+        trace = np.einsum("...rr->...", normal)[..., None, None]
+        normal = normal + (1e-12 * trace + 1e-300) * np.eye(normal.shape[-1])
+        wanted = np.einsum("...nr,...n->...r", changes, self.residuals[-1])
+        weights = np.linalg.solve(normal, wanted[..., None])
+        mixed: Array = g - ((steps + changes) @ weights)[..., 0]
+        return mixed
+
+    def keep(self, chosen: Array) -> None:
+        """Go on with some of the iterations: of the axis before the last, by mask."""
+        self.points = [part[..., chosen, :] for part in self.points]
+        self.residuals = [part[..., chosen, :] for part in self.residuals]

@@ -14,10 +14,12 @@ from treadload.kernels.arrays import Array
 from treadload.materials import TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins, Measured
+from treadload.roads.by_drop import by_drop
 from treadload.roads.drop_histories import DropHistories
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.parts import Progress, solve_in_parts
 from treadload.roads.solution import Backcalculation, solution
+from treadload.roads.station_loads import StationLoads
 from treadload.roads.uncertainty import SensorError, Stated
 from treadload.roads.unknowns import STIFF_LAYER, Unknowns, layer_names, modulus_at, pose
 
@@ -51,10 +53,12 @@ def backcalculate(
     the misfit of each basin tells the size. reference_temperature: of mixes, °C. jobs: processes. state: folder that
     keeps what is solved, so that a run goes on where it stopped. progress: called with (done, total, what).
 
-    The road is linear, a falling weight static, wheels in steady motion: inertia and stress dependence are not
-    modelled. Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and
+    A stress-dependent layer of a structure under a falling weight keeps its law, and the size of it is sought, stated
+    as the modulus at the nominal stress (θ = 150 kPa, q = 75 kPa): the drops of a station, section and thicknesses
+    are fitted together, each with the moduli that its load settles. Loads of two heights or more tell a law from a
+    linear layer. A falling weight is static, wheels in steady motion: inertia is not modelled. Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and
     undecided. Raises InputError for a question without an answer. Source: as `kernels.layers.settlement` and
-    `kernels.layers.tracks`; Marquardt (1963) for the search.
+    `kernels.layers.tracks`, states of stress as `response.settle`; Marquardt (1963) for the search.
     """
     began = time.perf_counter()
     if not isinstance(basins, Basins | MovingBasins | DropHistories):
@@ -80,9 +84,13 @@ def backcalculate(
             f"the basins give a thickness of {stray!r}, and the structure has {', '.join(names[:-1]) or 'no layers'} "
             "above its last layer; name its layers so"
         )
-    _check_count(basins, unknowns)
+    together = StationLoads.of(basins) if isinstance(basins, Basins) and structure.depends_on_stress else None
+    measured: Measured = basins if together is None else together
+    _check_count(measured, unknowns)
     sensors = SensorError.of(error, slopes=moving)
-    fits, before = solve_in_parts(basins, unknowns, sensors, jobs=jobs, state=state, progress=progress)
+    fits, before = solve_in_parts(measured, unknowns, sensors, jobs=jobs, state=state, progress=progress)
+    if together is not None:
+        fits = by_drop(fits, together)
     factors = temperature_factors(structure, basins, reference_temperature)
     stats = {"basins": len(basins), "from_state": before, "seconds": time.perf_counter() - began}
     return solution(basins, unknowns, sensors, fits, factors, reference_temperature, stats)

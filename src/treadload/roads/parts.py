@@ -21,13 +21,15 @@ from treadload.errors import InputError, WorkersLost
 from treadload.files import write_whole
 from treadload.roads.basins import Measured
 from treadload.roads.solve import Fits, solve
+from treadload.roads.station_loads import StationLoads
 from treadload.roads.uncertainty import SensorError
 from treadload.roads.unknowns import Unknowns
 
 Progress = Callable[[int, int, str], None]
 """(done, of how many, what)."""
-# Drops of a part: some seconds of work, so that a kill loses no more.
+# Drops of a part, and stations whose layers depend on stress: some seconds of work, so that a kill loses no more.
 PART = 250
+_STATIONS = 10
 _QUESTION = "question.json"
 
 
@@ -41,17 +43,19 @@ def solve_in_parts(
     progress: Progress | None,
 ) -> tuple[Fits, int]:
     """The fits of all drops, and how many of them were kept before. Arguments as those of `backcalculate`."""
-    starts = range(0, len(basins), PART)
+    together = isinstance(basins, StationLoads)
+    size = _STATIONS if together else PART
+    starts = range(0, len(basins), size)
     kept = None if state is None else _Kept(Path(state), _fingerprint(basins, unknowns, error))
     parts: dict[int, Fits] = {}
     for start in starts:
-        before = None if kept is None else kept.read(start, min(PART, len(basins) - start))
+        before = None if kept is None else kept.read(start, min(size, len(basins) - start))
         if before is not None:
             parts[start] = before
     found_before = sum(len(part.status) for part in parts.values())
     done = found_before
     tasks = {
-        start: basins.rows(np.arange(start, min(start + PART, len(basins)))) for start in starts if start not in parts
+        start: basins.rows(np.arange(start, min(start + size, len(basins)))) for start in starts if start not in parts
     }
     for start, fits in _solved(tasks, unknowns, error, basins.usual, jobs):
         parts[start] = fits
@@ -59,7 +63,7 @@ def solve_in_parts(
             kept.write(start, fits)
         done += len(fits.status)
         if progress is not None:
-            progress(done, len(basins), "basin")
+            progress(done, len(basins), "station" if together else "basin")
     names = [entry.name for entry in dataclasses.fields(Fits)]
     joined = Fits(*(np.concatenate([getattr(parts[start], name) for start in starts]) for name in names))
     return joined, found_before

@@ -138,6 +138,8 @@ def fit(model: Model, target: Target) -> Fitted:
     if model.coarse is not model:
         rough = fit(model.coarse, target)
         starts = np.stack([rough.x, np.where(np.isfinite(rough.rival), rough.rival, rough.x)], axis=1)
+        if not np.isfinite(rough.rival).any():
+            starts = starts[:, :1]
     else:
         starts = _starts(model, target)
     count = max(1, _BLOCK // (starts.shape[1] * (len(target.low) + 1) * model.size))

@@ -16,10 +16,11 @@ from treadload.damage.scatter import Scatter
 from treadload.errors import InputError, nearest
 from treadload.identifiability import LEVEL, quantile
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, TemperatureDependent
+from treadload.materials import Elastic, StressDependent, TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins, Measured
 from treadload.roads.drop_histories import DropHistories
+from treadload.roads.laws import LAWS, law_factors, laws_as_json
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.scatter import scatter_of
 from treadload.roads.solve import FITTED, FLAGGED, REFUSED, Fits
@@ -58,6 +59,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
         maybe={
             "measured_deflection fitted_deflection measured_slope fitted_slope": "basin sensor",
             "basin_speed": "basin",
+            "law_factor": "basin layer_name",
             "measured_history fitted_history": "basin sensor history_time",
         },
         with_it={"measured_deflection": "fitted_deflection", "measured_slope": "fitted_slope",
@@ -70,6 +72,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
         numbers="errors_given reference_temperature",
         maybe_numbers="plate_radius",
         texts="plate sensor_error source",
+        json={LAWS: dict},
     )  # fmt: skip
 
     dataset: xr.Dataset
@@ -111,7 +114,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
 
     def road(self, drop: int | str) -> Pavement:
         """The road at a drop: its fitted moduli, thicknesses, and the stiff layer; elastic, a viscoelastic layer with
-        its modulus at 10 Hz. Raises InputError if refused.
+        its modulus at 10 Hz, a stress-dependent one with its law and the fitted factor. Raises InputError if refused.
         """
         number = self.drop(drop)
         data = self.dataset.isel(basin=number)
@@ -124,7 +127,10 @@ class Backcalculation(BaseResult, group="backcalculation"):
         ):
             if deep > 0:
                 # Of a viscoelastic layer, the elastic one of its modulus at the reference frequency.
-                material = Elastic(float(modulus), poisson_of(layer))
+                material: Elastic | StressDependent = Elastic(float(modulus), poisson_of(layer))
+                if isinstance(layer.material, StressDependent):
+                    factor = float(modulus) / replace(layer.material, factor=1.0).nominal.modulus
+                    material = replace(layer.material, factor=factor)
                 size = None if math.isinf(deep) else float(deep)
                 layers.append(replace(layer, material=material, thickness=size, name=str(name)))
         return Pavement(layers, rigid_base=layers[-1].thickness is not None)
@@ -156,8 +162,11 @@ class Backcalculation(BaseResult, group="backcalculation"):
         rows = [row("basin_status", ", ".join(f"{count} {name}" for name, count in counts.items()))]
         good = status != REFUSED
         if good.any():
-            for load, drops in load_classes(data["plate_load"].to_numpy(), good):
-                rows += self._rows_at(load, drops)
+            if "law_factor" in data:
+                rows += self._rows_at(None, np.flatnonzero(good))
+            else:
+                for load, drops in load_classes(data["plate_load"].to_numpy(), good):
+                    rows += self._rows_at(load, drops)
             misfit = data["basin_misfit"].to_numpy()[good]
             rows.append(row("basin_misfit", float(np.median(misfit)), note=f"largest {100 * misfit.max():.2g} %"))
         rows.append(row("sensor_error", str(data.attrs["sensor_error"])))
@@ -169,7 +178,8 @@ class Backcalculation(BaseResult, group="backcalculation"):
             rows.append(row("solved", "{basins} basins in {seconds:.1f} s".format(**self.stats)))
         return tuple(rows)
 
-    def _rows_at(self, load: float, drops: Array) -> list[Row]:
+    def _rows_at(self, load: float | None, drops: Array) -> list[Row]:
+        """Moduli of drops under a load, N; None where the drops of a station share them."""
         rows = []
         for number, name in enumerate(map(str, self.dataset["layer_name"].to_numpy())):
             at = self.dataset.isel(basin=drops, layer_name=number)
@@ -183,7 +193,10 @@ class Backcalculation(BaseResult, group="backcalculation"):
                 notes.append(f"{deviation_in_words(float(np.nanmedian(deviations)))} (one standard deviation)")
             if len(drops) > 1:
                 notes.append(f"half of {len(drops)} from {modulus_in_words(low)} to {modulus_in_words(high)}")
-            label = f"modulus of {name} at {load / 1e3:.3g} kN"
+            label = f"modulus of {name}" + ("" if load is None else f" at {load / 1e3:.3g} kN")
+            if load is None and np.isfinite(at["law_factor"].to_numpy()).any():
+                label += " at θ = 150 kPa, q = 75 kPa"
+                notes.insert(0, f"{float(np.nanmedian(at['law_factor'].to_numpy())):.3g} times its law")
             rows.append(row("fitted_modulus", middle, label=label, note=", ".join(notes)))
         return rows
 
@@ -227,6 +240,7 @@ def solution(
             "modulus_high": (over, high),
             "modulus_deviation": (over, deviation),
             "modulus_at_reference": (over, moduli * factors),
+            **({"law_factor": (over, law_factors(road, moduli))} if road.depends_on_stress else {}),
             "layer_thickness": (over, thickness),
             "layer_poisson": (("layer_name",), [poisson_of(layer) for layer in road.layers]),
             "bond_stiffness": (("layer_name",), [layer.bond.stiffness for layer in road.layers]),
@@ -259,6 +273,7 @@ def solution(
         errors_given=int(error.stated),
         reference_temperature=reference,
         source=basins.source,
+        **({LAWS: laws_as_json(road)} if road.depends_on_stress else {}),
     )
     return Backcalculation(dataset, road, dict(stats), _warnings(basins, unknowns, dataset))
 
@@ -303,7 +318,7 @@ def _warnings(basins: Basins | MovingBasins | DropHistories, unknowns: Unknowns,
     if not good.any():
         return (*texts, "no basin could be fitted: see the reasons of the drops")
     classes = load_classes(data["plate_load"].to_numpy(), good)
-    if len(classes) > 1:
+    if len(classes) > 1 and not unknowns.road.depends_on_stress:
         (least, first), (most, last) = classes[0], classes[-1]
         changes = []
         for number in unknowns.moduli:

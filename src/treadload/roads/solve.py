@@ -19,6 +19,8 @@ from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.moving_model import moving_models
 from treadload.roads.profiles import intervals
 from treadload.roads.search import Model, Target, fit
+from treadload.roads.station_loads import StationLoads
+from treadload.roads.stress_model import StressModel, stress_models
 from treadload.roads.uncertainty import SensorError, certainty
 from treadload.roads.unknowns import DEPTH, Unknowns, layer_names, relative_modulus
 
@@ -85,6 +87,7 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
         )
         fitted = fit(model, target)
         sought = [unknowns.names[k] for k in chosen]
+        settled = model.settled(fitted.x[:, None])[1][:, 0] if isinstance(model, StressModel) else fitted.converged
         # Of the errors as they weigh: what the intervals of the drops are made of.
         reach, linear = np.full(len(model.drops), math.nan), np.full(fitted.x.shape, math.nan)
         for row, drop in enumerate(model.drops):
@@ -98,6 +101,8 @@ def solve(basins: Measured, unknowns: Unknowns, error: SensorError, usual: float
             caveats += _at_bounds(unknowns, chosen, fitted.at_bound[row])
             if not fitted.converged[row]:
                 caveats.append("the search did not settle")
+            elif not settled[row]:
+                caveats.append("the moduli of the stress-dependent layers do not settle under its loads")
             fits.x[drop, chosen] = fitted.x[row]
             fits.deviation[drop, chosen] = sure.deviations
             fits.at_bound[drop, chosen] = fitted.at_bound[row]
@@ -120,6 +125,8 @@ def _models(basins: Measured, unknowns: Unknowns, table: Array, drops: IntArray)
         return moving_models(basins, unknowns, table, drops)
     if isinstance(basins, DropHistories):
         return history_models(basins, unknowns, table, drops)
+    if isinstance(basins, StationLoads):
+        return stress_models(basins, unknowns, table, drops)
     assert isinstance(basins, Basins)
     return models(basins, unknowns, table, drops)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from treadload.errors import InputError, nearest, positive
 from treadload.kernels.arrays import Array, ComplexArray
-from treadload.materials import Anisotropic, Elastic, StressDependent, TemperatureDependent
+from treadload.materials import Anisotropic, Boyce, Elastic, StressDependent, TemperatureDependent
 from treadload.materials.kinds import elastic_part
 from treadload.pavement import Layer, Pavement
 from treadload.units import quantity
@@ -90,7 +90,7 @@ def pose(
 ) -> Unknowns:
     """The question to a structure, checked; arguments as those of `backcalculate`. Raises InputError.
 
-    memory: whether what was measured takes viscoelastic layers.
+    memory: whether what was measured takes viscoelastic layers; else it takes stress-dependent ones.
     """
     if not isinstance(structure, Pavement):
         raise InputError(f"structure must be a Pavement, got {type(structure).__name__}")
@@ -115,6 +115,11 @@ def pose(
         _prior(names[number], structure.layers[number], (priors or {}).get(names[number])) for number in sought
     )
     road, depth, sought_depth, depth_bounds = _bottom(structure, stiff_layer)
+    if sought_depth and structure.depends_on_stress:
+        raise InputError(
+            "the depth of the stiff layer cannot be sought together with stress-dependent layers, whose division over "
+            'depth follows it; state one depth, stiff_layer="10 m", and compare several'
+        )
     return Unknowns(road, sought, limits, centres, depth, sought_depth, depth_bounds)
 
 
@@ -122,14 +127,16 @@ def poisson_of(layer: Layer) -> float:
     """Poisson's ratio of a layer, also of one whose modulus waits for a temperature."""
     material = elastic_part(layer.material)
     settled = material.at(_MILD) if isinstance(material, TemperatureDependent) else material
-    assert not isinstance(settled, Anisotropic | StressDependent)  # `_check_layers` has seen to it
+    if isinstance(settled, StressDependent):
+        settled = settled.nominal
+    assert not isinstance(settled, Anisotropic)  # `_check_layers` has seen to it
     return float(settled.poisson)
 
 
 def modulus_of(layer: Layer) -> float:
     """Young's modulus of a layer, Pa; |E*| at the reference frequency of a viscoelastic one.
 
-    NaN of one that waits for a temperature.
+    Of a stress-dependent one at the nominal stress. NaN of one that waits for a temperature.
     """
     material = elastic_part(layer.material)
     return math.nan if isinstance(material, TemperatureDependent) else modulus_at(material)
@@ -137,6 +144,8 @@ def modulus_of(layer: Layer) -> float:
 
 def modulus_at(material: object) -> float:
     """Young's modulus of a material, Pa; |E*| at the reference frequency of a viscoelastic one."""
+    if isinstance(material, StressDependent):
+        material = material.nominal
     if isinstance(material, Elastic):
         return float(material.modulus)
     assert hasattr(material, "complex_modulus")
@@ -177,11 +186,9 @@ def _check_layers(structure: Pavement, names: tuple[str, ...], memory: bool) -> 
             continue
         if memory and has_memory(layer):
             continue
-        if layer.depends_on_stress:
-            raise InputError(
-                f"layer {name!r} is {material}, and a basin is fitted with one modulus a layer; give an Elastic, fit "
-                "the drops of each load by themselves, and compare with the law by tl.response.settle"
-            )
+        if isinstance(material, StressDependent):
+            _check_law(name, material, memory)
+            continue
         raise InputError(
             f"layer {name!r} is {material}: a static basin takes isotropic elastic layers and mixes with a modulus "
             "over temperature; give an Elastic with its Poisson's ratio"
@@ -190,6 +197,19 @@ def _check_layers(structure: Pavement, names: tuple[str, ...], memory: bool) -> 
         raise InputError(
             "half-bonded and debonded interfaces with friction have no single static basin; take BONDED, "
             "FRICTIONLESS or Bond(stiffness=...)"
+        )
+
+
+def _check_law(name: str, material: StressDependent, memory: bool) -> None:
+    if memory:
+        raise InputError(
+            f"layer {name!r} is {material}: rolling wheels and time histories are fitted with one modulus a layer; "
+            "give an Elastic, or fit the peaks of a falling weight at several loads"
+        )
+    if isinstance(material.law, Boyce):
+        raise InputError(
+            f"layer {name!r} is {material}, whose Poisson's ratio follows the stress as well; basins take the laws "
+            "KTheta, Uzan, Universal and Bilinear, at a Poisson's ratio that is stated"
         )
 
 

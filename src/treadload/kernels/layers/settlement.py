@@ -161,6 +161,19 @@ class Columns:
         slabs = tuple(_changed(slab, lambda entry: entry[chosen]) for slab in self.slabs)
         return Columns(self.nodes, slabs, self.poisson[chosen], self.spring, self.rigid)
 
+    def bottom(self, shear: Array) -> Compliance:
+        """Of what lies below the slabs: a rigid base, or a half-space of a shear modulus (n, v, nk), Pa."""
+        if self.rigid:
+            zero = np.zeros_like(shear)
+            return Compliance(1.0, zero, zero, zero, zero)
+        squeeze = (2 - 4 * self.poisson[:, -1])[:, None, None]
+        diagonal = (2 + squeeze) / (4 * shear)
+        return Compliance(1.0, diagonal, diagonal, -squeeze / (4 * shear), (1 + squeeze) / (4 * shear * shear))
+
+    def spring_below(self, number: int) -> float:
+        """Stiffness of the interface below a slab, Pa/m; inf below the last layer."""
+        return self.spring[number] if number < len(self.spring) else math.inf
+
     def kernel(self, moduli: Numbers) -> tuple[Array, Array]:
         """Kernel g (n, v, nk), 1/Pa, and its limit for short waves, of shear moduli, Pa, real or complex.
 
@@ -170,22 +183,11 @@ class Columns:
         shear = cast("Array", moduli)
         ones = np.ones((*shear.shape[:2], len(self.nodes)))
         spread = shear.ndim == 4
-        if self.rigid:
-            zero = np.zeros_like(ones)
-            below = Compliance(1.0, zero, zero, zero, zero)
-        else:
-            modulus = (shear[:, :, -1] if spread else shear[..., -1:]) * ones
-            squeeze = (2 - 4 * self.poisson[:, -1])[:, None, None]
-            diagonal = (2 + squeeze) / (4 * modulus)
-            below = Compliance(
-                1.0, diagonal, diagonal, -squeeze / (4 * modulus), (1 + squeeze) / (4 * modulus * modulus)
-            )
+        below = self.bottom((shear[:, :, -1] if spread else shear[..., -1:]) * ones)
         for number in reversed(range(len(self.slabs))):
             modulus = shear[:, :, number] if spread else shear[..., number : number + 1]
-            last = number == shear.shape[2] - 1
-            spring = math.inf if last else self.spring[number]
-            body = Body.of(below, 0.0, self.nodes, spring, modulus)
-            below = _scaled(self.slabs[number], modulus).up(body.sprung)
+            body = Body.of(below, 0.0, self.nodes, self.spring_below(number), modulus)
+            below = scaled(self.slabs[number], modulus).up(body.sprung)
         stiffness = 1 - self.poisson[:, :1]
         limit = stiffness[..., None] / shear[:, :, 0] if spread else stiffness / shear[..., 0]
         return np.asarray(below.zz), np.asarray(limit)
@@ -206,7 +208,7 @@ def _changed(slab: Slab, change: Callable[[Array], Array]) -> Slab:
     return Slab(slab.bottom, c, k, t, 0.0, 0.0, 0.0)
 
 
-def _scaled(slab: Slab, modulus: Scalars) -> Slab:
+def scaled(slab: Slab, modulus: Scalars) -> Slab:
     """A slab of unit shear modulus with another one, (n, v, 1)."""
     (cx, cz, cc, cd), (kx, kz, kc, kd) = slab.c, slab.k
     softness, square = 1 / modulus, modulus * modulus
