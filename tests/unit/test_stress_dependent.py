@@ -28,7 +28,6 @@ from treadload.pavement.stress_sublayers import StressSublayers
 from treadload.response import GridLoad, UniformDisc, UniformRectangle, settle, solve_response
 from treadload.response.basin import SHORTEST, basin_reach
 from treadload.response.settle import ROUNDS, SETTLED
-from treadload.roads import Basins
 from treadload.steps.design import design_of
 from treadload.units import PSI
 
@@ -246,14 +245,6 @@ def test_what_needs_a_modulus_says_where_it_comes_from():
     nominal = thin_road().at_nominal_stress
     assert nominal.layers[1].resolved.modulus == pytest.approx(60e6 * (150e3 / 101325) ** 0.5)
     assert not nominal.depends_on_stress
-
-
-def test_a_basin_is_not_fitted_with_a_law():
-    basins = Basins(np.array([[3e-4, 2e-4, 1e-4]]), np.array([0, 0.3, 0.9]), np.array([50e3]), 0.15)
-    with pytest.raises(
-        InputError, match=r"layer 'base' is stress-dependent.* give an Elastic, fit the drops of each"
-    ):
-        tl.backcalculate(basins, thin_road())
 
 
 @pytest.mark.parametrize(("make", "message"), [

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,7 +13,7 @@ from treadload.errors import InputError, nearest
 from treadload.files import read_tree
 
 FROM, OVERLAY = "from", "overlay"
-_GROUP = "backcalculation"
+_GROUP, LAWS = "backcalculation", "layer_laws"
 _REFUSED = 2
 
 _Tables = dict[str, object]
@@ -79,8 +80,7 @@ def _layers(drop: xr.Dataset) -> _Tables:
         thickness = float(drop["layer_thickness"][number])
         if not thickness > 0:
             continue
-        modulus, poisson = float(drop["fitted_modulus"][number]), float(drop["layer_poisson"][number])
-        layer: _Tables = {"name": name, "material": {"kind": "elastic", "modulus": modulus, "poisson": poisson}}
+        layer: _Tables = {"name": name, "material": _material(drop, number, name)}
         if math.isfinite(thickness):
             layer["thickness"] = thickness
         stiffness = float(drop["bond_stiffness"][number])
@@ -91,6 +91,21 @@ def _layers(drop: xr.Dataset) -> _Tables:
     if rigid:
         layers[-1].pop("bond", None)
     return {"layers": layers, **({"rigid_base": True} if rigid else {})}
+
+
+def _material(drop: xr.Dataset, number: int, name: str) -> Mapping[str, object]:
+    """Table of the material of a layer: elastic, or its law with the fitted factor."""
+    factor = float(drop["law_factor"][number]) if "law_factor" in drop else math.nan
+    if math.isfinite(factor):
+        laws = json.loads(drop.attrs.get(LAWS, "{}"))
+        if name not in laws:
+            raise InputError(
+                f"pavement.from: the file does not hold the law of layer {name!r}, which is of another package; "
+                f"state the layers in [[pavement.layers]], with factor = {factor:.4g} for this one"
+            )
+        return {**laws[name], "factor": factor}
+    modulus, poisson = float(drop["fitted_modulus"][number]), float(drop["layer_poisson"][number])
+    return {"kind": "elastic", "modulus": modulus, "poisson": poisson}
 
 
 def _scatter(drop: xr.Dataset) -> _Tables:

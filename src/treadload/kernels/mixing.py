@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 
 
 @dataclass
@@ -58,7 +58,7 @@ class AndersonOfMany:
         mixed: Array = g - ((steps + changes) @ weights)[..., 0]
         return mixed
 
-    def keep(self, chosen: Array) -> None:
+    def keep(self, chosen: BoolArray) -> None:
         """Go on with some of the iterations: of the axis before the last, by mask."""
         self.points = [part[..., chosen, :] for part in self.points]
         self.residuals = [part[..., chosen, :] for part in self.residuals]

@@ -56,9 +56,10 @@ def backcalculate(
     A stress-dependent layer of a structure under a falling weight keeps its law, and the size of it is sought, stated
     as the modulus at the nominal stress (θ = 150 kPa, q = 75 kPa): the drops of a station, section and thicknesses
     are fitted together, each with the moduli that its load settles. Loads of two heights or more tell a law from a
-    linear layer. A falling weight is static, wheels in steady motion: inertia is not modelled. Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and
-    undecided. Raises InputError for a question without an answer. Source: as `kernels.layers.settlement` and
-    `kernels.layers.tracks`, states of stress as `response.settle`; Marquardt (1963) for the search.
+    linear layer. A falling weight is static, wheels in steady motion: inertia is not modelled.
+    Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and undecided. Raises
+    InputError for a question without an answer. Source: as `kernels.layers.settlement` and `kernels.layers.tracks`,
+    states of stress as `response.settle`; Marquardt (1963) for the search.
     """
     began = time.perf_counter()
     if not isinstance(basins, Basins | MovingBasins | DropHistories):

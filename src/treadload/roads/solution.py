@@ -15,7 +15,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.damage.scatter import Scatter
 from treadload.errors import InputError, nearest
 from treadload.identifiability import LEVEL, quantile
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, IntArray
 from treadload.materials import Elastic, StressDependent, TemperatureDependent
 from treadload.pavement import Pavement
 from treadload.roads.basins import Basins, Measured
@@ -178,7 +178,7 @@ class Backcalculation(BaseResult, group="backcalculation"):
             rows.append(row("solved", "{basins} basins in {seconds:.1f} s".format(**self.stats)))
         return tuple(rows)
 
-    def _rows_at(self, load: float | None, drops: Array) -> list[Row]:
+    def _rows_at(self, load: float | None, drops: IntArray | Array) -> list[Row]:
         """Moduli of drops under a load, N; None where the drops of a station share them."""
         rows = []
         for number, name in enumerate(map(str, self.dataset["layer_name"].to_numpy())):

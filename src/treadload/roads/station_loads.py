@@ -121,7 +121,7 @@ class StationLoads:
     @property
     def numbers(self) -> tuple[Array, ...]:
         """Arrays that the answer depends on."""
-        return (*self.basins.numbers, self.station_of)
+        return (*self.basins.numbers, self.station_of.astype(float))
 
     @property
     def conditions(self) -> tuple[object, ...]:
@@ -130,13 +130,9 @@ class StationLoads:
 
     def refusals(self, usual: float) -> list[str]:
         """For every station why it cannot be fitted: where all of its drops are left out, the reason of the first."""
-        return [
-            self.reasons[members[0]] if all(self.reasons[k] for k in members) else "" for members in self.members
-        ]
+        return [self.reasons[members[0]] if all(self.reasons[k] for k in members) else "" for members in self.members]
 
     def flags(self) -> list[str]:
         """For every station what is unusual: of the first of its drops where something is."""
         flags = self.basins.flags()
-        return [
-            next((flags[k] for k in members if flags[k] and not self.reasons[k]), "") for members in self.members
-        ]
+        return [next((flags[k] for k in members if flags[k] and not self.reasons[k]), "") for members in self.members]

@@ -23,13 +23,13 @@ from treadload.roads.model import BasinModel, models, springs_between
 from treadload.roads.station_loads import StationLoads
 from treadload.roads.unknowns import Unknowns, poisson_of
 
-# Largest difference of a modulus, in ln, between the law and the road where a state is settled; rounds at most; rounds
-# whose differences are mixed; largest step in ln.
-SETTLED = 1e-8
-_ROUNDS, _MEMORY, _LONGEST = 60, 4, 1.5
+# Largest difference of a modulus, in ln, between the law and the road where a state is settled; rounds at most;
+# rounds whose differences are mixed; largest step in ln.
+SETTLED = 1e-7
+_ROUNDS, _MEMORY, _LONGEST = 60, 6, 1.5
 # Rounds to the state that others start from.
 _FIRST = 4
-# Of the slopes, in ln: states are settled to 1e-8, so that a difference over this has five digits, and its curvature
+# Of the slopes, in ln: states are settled to 1e-7, so that a difference over this has four digits, and its curvature
 # moves a slope by some 1e-3 of itself, which a search does not feel.
 _STEP = 1e-3
 
@@ -107,9 +107,9 @@ class StressModel:
     """Deflections of the drops of stations, over logarithms of the unknowns x (n, v, p).
 
     linear: the same on linear layers. columns: of the sublayers, for the deflection. halves: the same with each
-    stress-dependent one cut where its stress is taken, for the stress. axis: its integral. cuts: numbers of the layers
-    of `halves` above these cuts. owner, half_owner: place among the present layers of each layer of `columns` and
-    `halves`. parts, half_parts: which sublayer that depends on stress each of them is, -1 for none. materials: of
+    stress-dependent one cut where its stress is taken, for the stress. axis: its integral. cuts: numbers of the
+    layers of `halves` above these cuts. owner, half_owner: place among the present layers of each layer of `columns`
+    and `halves`. parts, half_parts: which sublayer that depends on stress each of them is, -1 for none. materials: of
     these sublayers (m). vertical, horizontal: stress of the road's weight at the cuts (n, m), Pa. pressure: below the
     plate (n, K), Pa. start: ln of the moduli of the sublayers over the nominal ones that states start from
     (n, K, m).
@@ -158,7 +158,7 @@ class StressModel:
     @property
     def size(self) -> int:
         """Nodes of a structure: of the stress under each load, which is kept for the way down."""
-        return 4 * len(self.axis.nodes) * self.pressure.shape[1]
+        return 4 * len(self.axis.nodes) * int(self.pressure.shape[1])
 
     @property
     def geometry(self) -> Array:
@@ -198,7 +198,7 @@ class StressModel:
         return values, np.moveaxis((aside - values[:, :, None]) / _STEP, 2, 3)
 
     def settled(self, x: Array, start: Array | None = None) -> tuple[Array, BoolArray]:
-        """ln of the moduli of the sublayers over the nominal ones (n, v, K, m), and which are settled (n, v).
+        """Ln of the moduli of the sublayers over the nominal ones (n, v, K, m), and which are settled (n, v).
 
         start: the same at the first round.
         """
@@ -208,7 +208,7 @@ class StressModel:
         pressure = np.tile(self.pressure, (1, v))
         state = (np.repeat(self.start[:, None], v, axis=1) if start is None else start).reshape(n, v * loads, count)
         state, settled = self._iterate(layers, pressure, state, _ROUNDS)
-        return state.reshape(n, v, loads, count), settled.reshape(n, v, loads).all(axis=-1)
+        return state.reshape(n, v, loads, count), np.asarray(settled.reshape(n, v, loads).all(axis=-1))
 
     def _iterate(self, layers: Array, pressure: Array, state: Array, rounds: int) -> tuple[Array, BoolArray]:
         """States (n, w, m) and which are settled (n, w), of layers (n, w, L), ln Pa, under pressures (n, w), Pa."""
@@ -219,7 +219,7 @@ class StressModel:
             law = self._law(layers[:, going], pressure[:, going], now)
             apart = np.abs(law - now).max(axis=-1)
             out[:, going], settled[:, going] = law, apart < SETTLED
-            left = ~settled[:, going].all(axis=0)
+            left = np.asarray(~settled[:, going].all(axis=0))
             if not left.any():
                 break
             step = mixing.next(now, law) - now
@@ -230,7 +230,7 @@ class StressModel:
         return out, settled
 
     def _law(self, layers: Array, pressure: Array, state: Array) -> Array:
-        """ln of the moduli of the law over the nominal ones (n, w, m), under the stress of a state."""
+        """Ln of the moduli of the law over the nominal ones (n, w, m), under the stress of a state."""
         shear = _shear(layers, state, self.half_owner, self.half_parts, self.halves.poisson)
         down, aside = self.axis.stress(self.halves, shear, self.cuts)
         down = pressure[..., None] * down + self.vertical[:, None]
@@ -253,7 +253,7 @@ class StressModel:
         return np.asarray(each.reshape(n, v, -1))
 
     def _layers(self, x: Array) -> Array:
-        """ln of the moduli of the present layers (n, v, L), nominal ones of those that depend on stress."""
+        """Ln of the moduli of the present layers (n, v, L), nominal ones of those that depend on stress."""
         static = self.linear.static
         moduli = np.broadcast_to(static.log_moduli, (*x.shape[:-1], len(static.present))).copy()
         moduli[..., list(static.sought)] = x[..., : len(static.sought)]
@@ -274,13 +274,13 @@ def stress_models(stations: StationLoads, unknowns: Unknowns, table: Array, drop
     """
     first = stations.basins.rows([members[0] for members in stations.members])
     alike: dict[tuple[int, ...], list[tuple[int, StressSublayers]]] = {}
-    known: dict[bytes, StressSublayers] = {}
+    divisions: dict[bytes, StressSublayers] = {}
     for drop in drops:
         key = table[drop].tobytes()
-        if key not in known:
-            known[key] = StressSublayers.of(_road(unknowns, table[drop]))
+        if key not in divisions:
+            divisions[key] = StressSublayers.of(_road(unknowns, table[drop]))
         present = np.flatnonzero(table[drop] > 0)
-        alike.setdefault(tuple(present[list(known[key].owner)].tolist()), []).append((int(drop), known[key]))
+        alike.setdefault(tuple(present[list(divisions[key].owner)].tolist()), []).append((int(drop), divisions[key]))
     out = []
     for group in alike.values():
         at = np.array([drop for drop, _ in group])
@@ -305,13 +305,16 @@ def _model(
     road, rigid = divided[0].road, divided[0].road.rigid_base
     owner, numbers = np.array(divided[0].owner), divided[0].parts
     n, count = len(divided), len(road.layers)
-    sizes = np.array([[layer.thickness or math.inf for layer in one.road.layers] for one in divided])
+    sizes = np.array([[layer.thickness or math.inf for layer in entry.road.layers] for entry in divided])
     tops = np.concatenate([np.zeros((n, 1)), np.cumsum(sizes[:, :-1], axis=1)], axis=1)
-    depths = np.array([one.depths for one in divided])
+    depths = np.array([entry.depths for entry in divided])
     between = springs_between(unknowns.road, np.array(static.present))
     springs = [math.inf if owner[k] == owner[k + 1] else between[owner[k]] for k in range(count - 1)]
     thickness: list[Array] = []
-    half_owner, half_parts, half_springs, cuts = [], [], [], []
+    half_owner: list[int] = []
+    half_parts: list[int] = []
+    half_springs: list[float] = []
+    cuts: list[int] = []
     for layer in range(count):
         part = numbers.index(layer) if layer in numbers else -1
         ends = [sizes[:, layer]]
@@ -331,17 +334,15 @@ def _model(
     columns = Columns.of(
         static.plate.nodes, [size[:, None] for size in sizes.T[drop]], np.tile(ratio, (n, 1)), springs, rigid=rigid
     )
-    halves = Columns.of(
-        axis.nodes, thickness[drop], np.tile(half_ratio, (n, 1)), half_springs[:-1], rigid=rigid
-    )
+    halves = Columns.of(axis.nodes, thickness[drop], np.tile(half_ratio, (n, 1)), half_springs[:-1], rigid=rigid)
     loads = stations.load[static.drops]
     parts = np.array([numbers.index(k) if k in numbers else -1 for k in range(count)])
     linear = LinearLoads(replace(static, load=np.ones(n)), loads)
     pressure = loads / (math.pi * stations.basins.plate_radius**2)
     model = StressModel(
         linear, columns, halves, axis, tuple(cuts), owner, np.array(half_owner), parts, np.array(half_parts),
-        divided[0].materials, np.array([one.vertical for one in divided]),
-        np.array([one.horizontal for one in divided]), pressure, np.zeros((*loads.shape, len(numbers))),
+        divided[0].materials, np.array([entry.vertical for entry in divided]),
+        np.array([entry.horizontal for entry in divided]), pressure, np.zeros((*loads.shape, len(numbers))),
     )  # fmt: skip
     # States start from that of the structure.
     layers = np.repeat(np.nan_to_num(static.log_moduli, nan=math.log(3e9))[None, None], n, axis=0)

@@ -117,8 +117,8 @@ def pose(
     road, depth, sought_depth, depth_bounds = _bottom(structure, stiff_layer)
     if sought_depth and structure.depends_on_stress:
         raise InputError(
-            "the depth of the stiff layer cannot be sought together with stress-dependent layers, whose division over "
-            'depth follows it; state one depth, stiff_layer="10 m", and compare several'
+            "the depth of the stiff layer cannot be sought together with stress-dependent layers, whose division "
+            'over depth follows it; state one depth, stiff_layer="10 m", and compare several'
         )
     return Unknowns(road, sought, limits, centres, depth, sought_depth, depth_bounds)
 

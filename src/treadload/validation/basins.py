@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
 from treadload.kernels.arrays import Array
-from treadload.materials import Elastic, Prony
+from treadload.materials import Elastic, KTheta, Prony, StressDependent, Universal
 from treadload.pavement import Layer, Pavement
 from treadload.response import UniformDisc, solve_response
 from treadload.roads import Basins, DualWheels, MovingBasins, backcalculate
@@ -47,7 +48,29 @@ def basin_checks() -> Iterator[Check]:
             fitted = float(result.dataset["fitted_modulus"][0, k])
             # Deflections of both quadratures agree to 1e-8; thin stiff layers feel that a hundred times.
             yield relative(group, f"{name}: E of layer {k + 1}, Pa", fitted, wanted, 1e-5, "our layered solver")
+    yield from _law_checks(group)
     yield from _moving_checks(group)
+
+
+def _law_checks(group: str) -> Iterator[Check]:
+    """Factors on the laws of two layers from the bowls of three loads, whose moduli `settle` finds to 0.1 %."""
+    base = StressDependent(KTheta(200e6, 0.5), sublayer=0.1)
+    soil = StressDependent(Universal(560, 0.3, -1.0), 0.4, 0.8, sublayer=1.5)
+    asphalt = Layer(Elastic(4e9, 0.35), 0.1, name="asphalt")
+    road = Pavement([asphalt, Layer(base, 0.3, name="base"), Layer(soil, 9.6, name="soil")], rigid_base=True)
+    loads, rows = np.array([30e3, 60e3, 100e3]), []
+    for load in loads:
+        disc = UniformDisc(_RADIUS, load / (math.pi * _RADIUS**2))
+        response = solve_response([disc], road, depths=[0.0], x=_OFFSETS, y=[0.0])
+        rows.append(response.dataset["displacement_z"].to_numpy().ravel())
+    # The laws that the search takes are half and twice as stiff.
+    laws = [replace(road.layers[1], material=replace(base, factor=0.5))]
+    laws.append(replace(road.layers[2], material=replace(soil, factor=2.0)))
+    drops = Basins(np.array(rows), _OFFSETS, loads, _RADIUS, station=("1",) * len(loads))
+    result = backcalculate(drops, Pavement([asphalt, *laws], rigid_base=True))
+    for k, name in ((1, "base"), (2, "soil")):
+        fitted = float(result.dataset["law_factor"][0, k])
+        yield relative(group, f"three loads: factor on the law of the {name}", fitted, 1.0, 5e-3, "our `settle`")
 
 
 def _moving_checks(group: str) -> Iterator[Check]:

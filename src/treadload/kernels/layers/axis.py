@@ -1,7 +1,8 @@
 """Stress on the axis of a uniformly loaded disc, for many layered columns at once.
 
-σ = p ∫ s(k) a J1(k a) dk over the transforms s of the layers, which fall like exp(-k z) and are smooth over panels that
-double: they are known at a few points of each panel, and the integral is a sum with weights that all columns share.
+σ = p ∫ s(k) a J1(k a) dk over the transforms s of the layers, which fall like exp(-k z) and are smooth over panels
+that double: they are known at a few points of each panel, and the integral is a sum with weights that all columns
+share.
 
 Source: as `kernels.layers.hankel` and `kernels.layers.settlement`.
 """
@@ -23,9 +24,9 @@ from treadload.kernels.layers.settlement import Columns, scaled
 from treadload.kernels.layers.wavenumbers import gauss
 
 # Points of a panel, which spans a factor of two, and Gauss points of half a turn of the Bessel function.
-_POINTS, _GAUSS = 7, 12
-# Wavenumbers end where exp(-k z) is 1e-6; the panel at zero ends at this over the depth of the columns.
-_END, _BEGIN = 14.0, 0.25
+_POINTS, _GAUSS = 6, 12
+# Wavenumbers end where exp(-k z) is 1e-5; the panel at zero ends at this over the depth of the columns.
+_END, _BEGIN = 12.0, 0.25
 
 
 @dataclass(frozen=True, eq=False)
