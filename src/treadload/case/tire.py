@@ -13,6 +13,7 @@ from treadload.case.choices import TIRE_MATERIAL, TireMaterial
 from treadload.read import As, Table
 from treadload.tire import Belt, Tire, TreadProfile, example_mesh
 from treadload.tire.keywords import BLOCKS_ROLL
+from treadload.tire.library import tread_named
 from treadload.units import Angle, Length, Number, Pressure
 
 # The word that stands for the tire mesh that ships with the package.
@@ -38,6 +39,7 @@ class TirePart(Table):
     catalogue or a table; inflation carries it. tread: on a belt, "ribs" with free sides between circumferential
     grooves, or a "layer" without grooves. undertread: of ribs, rubber between the deepest groove and the belt; left
     out, what the tread_thickness of the belt leaves of a profile, 5 mm of a scan or a height map.
+    wear: worn off the tread of a profile, evenly along the radius of the wheel.
     Of a scan: nominal_diameter: outer, from which the unit follows.
     rotation: about the axle. camber: lean to the right. revolve: the meridian in place of the facets. fill_holes: of
     the tread. smooth: length to smooth noise over, or "auto". outliers: "remove", "refuse" or "keep" points that
@@ -66,6 +68,7 @@ class TirePart(Table):
     belt: Annotated[Any, BELT] = None
     tread: Literal["layer", "ribs"] = "layer"
     undertread: Length | None = None
+    wear: Length = 0.0
 
     @field_validator("tread", mode="before")
     @classmethod
@@ -89,6 +92,8 @@ class TirePart(Table):
             )
         if self.undertread is not None and self.tread != "ribs":
             raise ValueError('undertread lies below the grooves of ribs; give tread = "ribs", or leave it out')
+        if self.wear and self.profile is None:
+            raise ValueError(f"wear is worn off a profile; this tire is a {kinds[0]}, which has the wear that it has")
         if self.profile is not None and self.units is not None:
             raise ValueError("units belongs to a scan or a height_map; this tire is a profile")
         if self.scan is not None and isinstance(self.units, dict):
@@ -110,7 +115,9 @@ class TirePart(Table):
 
     def _belt(self) -> Belt | None:
         belt = BELT.build(self.belt)
-        return Belt.from_library(belt) if isinstance(belt, str) else belt
+        belt = Belt.from_library(belt) if isinstance(belt, str) else belt
+        # An undertread makes the thickness of the tread of what the grooves are now.
+        return belt.worn(self.wear) if belt is not None and self.wear and self.undertread is None else belt
 
     def build(self, folder: Path) -> Tire:
         """The tire; relative paths start from the folder."""
@@ -140,6 +147,8 @@ class TirePart(Table):
         profile = PROFILE.build(self.profile)
         if isinstance(profile, str) and profile.endswith(".toml"):
             profile = TreadProfile.from_toml(folder / profile)
+        if self.wear:
+            profile = (tread_named(profile) if isinstance(profile, str) else profile).worn(self.wear)
         return Tire.from_profile(profile, **body)
 
 

@@ -137,7 +137,7 @@ def _tire(part: TirePart, folder: Path) -> str:
         arguments |= {"units": part.units, "decimal": part.decimal}
         path = repr(str(folder / part.height_map))
         return _call("tl.Tire.from_height_map", [path, repr(part.cell), *_keywords(arguments), *more])
-    if not isinstance(part.profile, str):
+    if not isinstance(part.profile, str) or part.wear:
         raise NoCallError
     if part.profile.endswith(".toml"):
         profile = f"tl.tire.TreadProfile.from_toml({str(folder / part.profile)!r})"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,7 +16,7 @@ from treadload.materials import Elastic, Prony
 from treadload.named import Catalogue, read_tables
 from treadload.tire.modulus import unlike_a_truck
 from treadload.tire.ribs import RibGroup
-from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness
+from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness, quantity
 
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
 _THINNEST, _THICKEST = 1e-3, 1.0
@@ -119,6 +119,23 @@ class Belt:
     def from_library(cls, name: str) -> Belt:
         """The belt of this name in the catalogue, e.g. "315/80R22.5". Raises InputError when it is not there."""
         return belts[name]
+
+    def worn(self, wear: float | str) -> Belt:
+        """The belt below a tread that `wear`, m, has been worn off: thickness and arm are smaller by it.
+
+        Raises InputError for a negative wear, and for one that leaves less than 1 mm of tread.
+
+        >>> belt = Belt(tread_thickness=0.020, arm=0.020).worn("6 mm")
+        >>> round(belt.tread_thickness, 9), round(belt.arm, 9)
+        (0.014, 0.014)
+        """
+        depth = quantity(wear, "m")
+        if not 0 <= depth <= self.tread_thickness - _THINNEST:
+            raise InputError(
+                f"wear must be at least 0 and at most {(self.tread_thickness - _THINNEST) * 1e3:g} mm, which leaves "
+                f"{_THINNEST * 1e3:g} mm of tread on the belt, got {depth * 1e3:g} mm"
+            )
+        return replace(self, tread_thickness=self.tread_thickness - depth, arm=max(0.0, self.arm - depth))
 
     def inflated(
         self, inflation_pressure: float, rolling_radius: float | None, crown_radius: float | None

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -34,6 +35,10 @@ class Groove:
     def __post_init__(self) -> None:
         check_finite(self, "groove", ("centre",))
         _check_trench("groove", self.width, self.depth, self.wall_angle, self.edge_radius)
+
+    def worn(self, wear: float) -> Groove | None:
+        """The same groove below a tread worn by `wear`, m: None where it is gone."""
+        return worn_groove(self, wear)
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,21 @@ class LateralGrooves:
                     f"lateral groove: y_range must be (from, to) in m with from < to, got {self.y_range}"
                 )
             object.__setattr__(self, "y_range", (low, high))
+
+    def worn(self, wear: float) -> LateralGrooves | None:
+        """The same grooves below a tread worn by `wear`, m, as in Groove."""
+        return worn_groove(self, wear)
+
+
+Cut = TypeVar("Cut", Groove, LateralGrooves)
+
+
+def worn_groove(groove: Cut, wear: float) -> Cut | None:
+    """A groove whose tread is worn by `wear`, m: its floor and walls stay, its rounded edges move with the tread."""
+    if wear >= groove.depth - EDGE:
+        return None
+    width = groove.width - 2 * wear * math.tan(groove.wall_angle)
+    return replace(groove, width=width, depth=groove.depth - wear)
 
 
 def equal_ribs(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -18,7 +18,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.tire.grooves import EDGE, Groove, LateralGrooves, check_finite, rounding_start, trench
 from treadload.tire.quality import ScanQuality
-from treadload.units import Length
+from treadload.units import Length, quantity
 
 EXTENT_HEIGHT = 0.060  # a contact never climbs this far up the tread, m
 EXTENT_MARGIN = 0.012  # bare road beside the tread, m
@@ -114,6 +114,35 @@ class TreadProfile:
     def ribs(self) -> int:
         """Ribs that its circumferential grooves leave; 0 where it has none of them, or lateral grooves."""
         return len(self.grooves) + 1 if self.grooves and not self.lateral else 0
+
+    def worn(self, wear: float | str) -> TreadProfile:
+        """The tread after `wear`, m, has been worn off it, the same everywhere along the radius of the wheel.
+
+        The radius shrinks, grooves become shallower, and narrower where their walls slope; arc, width and shoulders
+        stay. Raises InputError for a negative wear, and for one that leaves no groove of a tread with grooves.
+
+        >>> new = TreadProfile(0.5, 1.0, 0.2, grooves=(Groove(0.0, 0.01, 0.015),))
+        >>> old = new.worn("6 mm")
+        >>> old.rolling_radius, round(old.grooves[0].depth, 9)
+        (0.494, 0.009)
+        """
+        depth = quantity(wear, "m")
+        cuts = [*(groove.depth for groove in self.grooves), *(lateral.depth for lateral in self.lateral)]
+        deepest = max(cuts, default=0.25 * self.rolling_radius)
+        if not 0 <= depth < deepest:
+            raise InputError(
+                f"wear must be at least 0 and less than {deepest * 1e3:g} mm, the depth of the deepest groove, got "
+                f"{depth * 1e3:g} mm"
+                if cuts
+                else f"wear must be at least 0 and less than {deepest * 1e3:g} mm, a quarter of the radius, got "
+                f"{depth * 1e3:g} mm"
+            )
+        return replace(
+            self,
+            rolling_radius=self.rolling_radius - depth,
+            grooves=tuple(cut for groove in self.grooves if (cut := groove.worn(depth)) is not None),
+            lateral=tuple(lug for lateral in self.lateral if (lug := lateral.worn(depth)) is not None),
+        )
 
     def drop(self, y: Array) -> Array:
         """Meridian: how far the surface lies below the crown circle at y, grooves included but lateral ones not.
