@@ -26,6 +26,7 @@ from treadload.contact import solve_contact as solve_contact
 from treadload.damage import FatigueLine as FatigueLine
 from treadload.damage import assess as assess
 from treadload.errors import InputError as InputError
+from treadload.footprint import Footprint as Footprint
 from treadload.footprint import compare as compare
 from treadload.life import Design as Design
 from treadload.life import solve_life as solve_life

@@ -570,6 +570,15 @@ _FOOTPRINT = {
     "overlap_of_area": ("1", "area that both maps load over area that either does"),
     "rms_difference": ("Pa", "root of the mean square of the difference where either map is loaded"),
     "correlation": ("1", "correlation of two maps over all sensels"),
+    **{
+        f"{of}{name}_error": ("1", f"rms error of the interpolated {field} over the mean pressure, {cases}")
+        for of, cases in (("", "all cases left out in turn"), ("largest_", "of the worst case left out"))
+        for name, field in (
+            ("pressure", "pressure"),
+            ("traction_x", "shear along travel"),
+            ("traction_y", "lateral shear"),
+        )
+    },
     "registered_x": ("m", "shift of the footprint's middle along its first axis"),
     "registered_y": ("m", "shift of the footprint's middle along its second axis"),
     "registered_angle": ("rad", "angle of the footprint's first axis from travel towards the right"),
@@ -925,6 +934,15 @@ _DISPLAYS_CONTACT = {
     "pin_face": Display("face of a pin"),
     "threshold": Display("sensor threshold"),
     "saturation": Display("sensor saturation"),
+    **{
+        f"{of}{name}_error": Display(f"{words} of the {field} when left out", "%", ".2f")
+        for of, words in (("", "rms error"), ("largest_", "largest rms error"))
+        for name, field in (
+            ("pressure", "pressure"),
+            ("traction_x", "shear along travel"),
+            ("traction_y", "lateral shear"),
+        )
+    },
     "missing": Display("missing"),
     "source": Display("read from"),
     "road_share": Display("compliance by the road", "%", ".3g"),

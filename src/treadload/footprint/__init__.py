@@ -3,6 +3,7 @@
 from treadload.footprint.comparison import FootprintComparison, compare
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
+from treadload.footprint.interpolation import FootprintSet
 from treadload.footprint.measured import Measured, Unknown
 from treadload.footprint.measures import Measures
 from treadload.footprint.pin_sampling import sample_pins, write_pins
@@ -15,6 +16,7 @@ __all__ = [
     "FittedFormula",
     "Footprint",
     "FootprintComparison",
+    "FootprintSet",
     "Frames",
     "Measured",
     "Measures",

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+import os
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
 import xarray as xr
 
-from treadload.composing import BaseResult
+from treadload.composing import BaseResult, Source
 from treadload.errors import InputError
+from treadload.footprint.interpolation import FootprintSet, opened_set
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
@@ -37,7 +39,8 @@ class Footprint(BaseResult, group="contact"):
     load: pressure, and shear if it was recorded, on the sensels; zero where there is none. road: that it stands on,
     or None. threshold: pressures below it are not seen, Pa. saturation: what a sensel reads at most, Pa. missing:
     (ny, nx), True where there is no sensel or a dead one; None for none. pin: sides of the face of a pin along x and
-    y, m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences.
+    y, m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences. errors:
+    of an interpolated one, see `FootprintSet.errors`; empty of one that was recorded.
     Raises InputError for a wrong value.
     """
 
@@ -50,6 +53,7 @@ class Footprint(BaseResult, group="contact"):
     missing: BoolArray | None = None
     warnings: tuple[str, ...] = ()
     pin: tuple[float, float] | None = None
+    errors: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.threshold) and self.threshold >= 0):
@@ -67,6 +71,35 @@ class Footprint(BaseResult, group="contact"):
                 raise InputError(f"missing has shape {holes.shape}, the footprint {self.load.grid.shape} (ny, nx)")
             holes.setflags(write=False)
             object.__setattr__(self, "missing", holes if holes.any() else None)
+
+    @classmethod
+    def interpolate(
+        cls,
+        store: str | os.PathLike[str] | Source | FootprintSet,
+        *,
+        load: float | str | None = None,
+        pressure: float | str | None = None,
+        slip: float | str | None = None,
+        version: str | None = None,
+    ) -> Footprint:
+        """Footprint between the solved cases of a study, in milliseconds.
+
+        store: of a study of one tire, friction and wear that varies rolling.normal_load, tire.inflation_pressure and
+        rolling.creepage_x, or some of them, and keeps the fields pressure, traction_x and traction_y; or the
+        `FootprintSet` of it. A path is read once, in about a second, and kept while the store is as it was.
+        load: N or "30 kN". pressure: of inflation, Pa or "8 bar". slip: creepage along travel (V - ωR)/V, negative
+        when driving. Each inside the sampled range; left out where the study does not vary it. version: of treadload
+        that solved the store, where it is not this one.
+        The load is exact; forces and moments are those of the interpolated fields, p ≥ 0 and |q| ≤ μp. `errors`, also
+        in the dataset, are those of the cases, each left out in turn. Raises InputError outside the range, with the
+        bound, and as `FootprintSet.from_store`.
+
+        >>> tl.Footprint.interpolate("set.zarr", load="31 kN", pressure="7.7 bar", slip=-0.012)  # doctest: +SKIP
+        """
+        cases = opened_set(store, version)
+        return cls(
+            cases.at(load=load, pressure=pressure, slip=slip), warnings=cases.warnings, errors=dict(cases.errors)
+        )
 
     @property
     def pressure(self) -> Array:
@@ -216,10 +249,12 @@ class Footprint(BaseResult, group="contact"):
             "normal_load": ((), load.normal_load),
             "tractive_force": ((), load.tractive_force),
             "lateral_force": ((), load.lateral_force),
+            **{name: ((), value) for name, value in self.errors.items()},
         }
         words = {} if self.road is None else {"road": road_in_words(self.road)}
         cell = {"dx": load.grid.dx, "dy": load.grid.dy}
-        title = f"recorded footprint{f', read from {load.source}' if load.source else ''}: {load}"
+        kind = "interpolated" if self.errors else "recorded"
+        title = f"{kind} footprint{f', read from {load.source}' if load.source else ''}: {load}"
         return dataset(fields, {"x": load.grid.x, "y": load.grid.y}, **cell, tire=title, **words)
 
     @property
@@ -248,6 +283,7 @@ class Footprint(BaseResult, group="contact"):
         if self.missing is not None:
             text = f"{int(self.missing.sum())} cells without a working sensel"
             lines.append(row("missing", text))
+        lines += [row(name, value) for name, value in self.errors.items()]
         if load.source:
             lines.append(row("source", load.source))
         return tuple(lines)
