@@ -3,11 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from scipy.ndimage import uniform_filter
 
 from treadload.contact import Contact, Rolling, solve_contact
+from treadload.contact.bodies import Influence, Pair
+from treadload.contact.solvers.coupling import Surfaces, solve_coupled
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
 from treadload.kernels.sections import Section, face_compliance
 from treadload.materials import Elastic
 from treadload.pavement import Pavement
@@ -27,6 +33,10 @@ _LOADS_AND_FRICTION = (
 )
 # Of the surface strain: squares over which it is a mean, and points, m apart.
 _SQUARE, _POINT = 10e-3, 1e-3
+# Of pins at the shoulder: their width, how far beyond the face forces are counted, cells along travel, m, and grid
+# offsets across, whose mirror images are those of the other shoulder.
+_PIN, _BEYOND, _ALONG, _OFFSETS = 9.7e-3, 4e-3, 6e-3, (0.0, 0.25, 0.5)
+_ROAD = Pavement.half_space(Elastic(5.4e9, 0.35))
 
 
 def rib_checks() -> Iterator[Check]:
@@ -34,9 +44,7 @@ def rib_checks() -> Iterator[Check]:
     for poisson, stiffness in _BLOCKS:
         quantity = f"apparent modulus over E, ν = {poisson:g}"
         yield relative("block bonded on both faces", quantity, bonded_block(poisson), stiffness, 3e-3, _SOURCE)
-    belt = Belt(tread=Elastic(5.5e6, 0.495), bending=(80.0, 100.0, 150.0))
-    tire = Tire.from_profile("315/80R22.5", inflation_pressure=820e3, belt=belt, tread="ribs")
-    road = Pavement.half_space(Elastic(5.4e9, 0.35))
+    tire, road = _tire(), _ROAD
     contact = solve_contact(tire, road, Rolling(normal_load=35e3, friction=0.7))
     group, data = "five ribs, free rolling", contact.dataset
     yield relative(group, "deflection, mm", float(data.approach) * 1e3, 34.6, 0.01, _SOURCE)
@@ -54,6 +62,58 @@ def rib_checks() -> Iterator[Check]:
         name = f"five ribs, {load / 1e3:g} kN, μ {friction:g}"
         yield from _amplitudes(name, solve_contact(tire, road, wheel), reference)
     yield from contact_conditions("five ribs", contact)
+    yield from _shoulder_checks()
+
+
+def _tire() -> Tire:
+    belt = Belt(tread=Elastic(5.5e6, 0.495), bending=(80.0, 100.0, 150.0))
+    return Tire.from_profile("315/80R22.5", inflation_pressure=820e3, belt=belt, tread="ribs")
+
+
+def _shoulder_checks() -> Iterator[Check]:
+    """The pin at the shoulder on cells of 3 and 1.5 mm, wherever the grid lies."""
+    group, source = "five ribs, cells of 3 mm across", "cells of 1.5 mm, mean over four grid offsets"
+    coarse, fine = np.array(shoulder_pins(3e-3)), float(np.mean(shoulder_pins(1.5e-3)))
+    quantity = "shear of a pin of 9.7 mm at the shoulder over the rib's pressure, mean over four grid offsets"
+    yield relative(group, quantity, float(coarse.mean()), fine, 0.01, source)
+    worst = float(coarse[np.argmax(np.abs(coarse - fine))])
+    # Pressure ends within a row of cells on the rounded shoulder.
+    yield relative(group, "the same, worst of the four grid offsets", worst, fine, 0.05, source)
+
+
+@lru_cache(maxsize=8)
+def shoulder_pins(dy: float) -> tuple[float, ...]:
+    """Outward shear of a pin at the shoulder over the rib's mean pressure, for four grid offsets across.
+
+    dy: size of the cells across, m. Pins of 9.7 mm at the outer end of the shoulder rib's face; 315/80R22.5, 35 kN,
+    820 kPa, μ 0.7, free rolling, cells of 6 mm along. Offsets of 0, a quarter, a half and three quarters of a cell.
+    """
+    tire, wheel = _tire(), Rolling(normal_load=35e3, friction=0.7)
+    pins: list[float] = []
+    for offset in _OFFSETS:
+        lattice = Grid.on_lattice(0.26, 0.30, _ALONG, dy)
+        grid = replace(lattice, y0=lattice.y0 + offset * dy)
+        influence = Influence(grid.shape, grid.dx, grid.dy, Pair.of(tire, _ROAD).both, grid.y0)
+        solved = solve_coupled(influence, Surfaces(grid, tire.height_map(grid)), wheel, check=lambda pressure: None)
+        shear = -solved.slipping.tangential.shear[1]
+        (low, inner), (far, high) = tire.ribs[0].faces[0], tire.ribs[-1].faces[0]
+        pressure = solved.normal.pressure
+        left = -_force(grid, shear, low - _BEYOND, low + _PIN) / _force(
+            grid, pressure, low - _BEYOND, inner + _BEYOND
+        )
+        right = _force(grid, shear, high - _PIN, high + _BEYOND) / _force(
+            grid, pressure, far - _BEYOND, high + _BEYOND
+        )
+        scale = (high - far) / _PIN
+        # The grids of no and of half an offset are their own mirror image.
+        pins.extend([scale * right] if offset in (0.0, 0.5) else [scale * right, scale * left])
+    return tuple(pins)
+
+
+def _force(grid: Grid, field: Array, low: float, high: float) -> float:
+    """Sum over rows of a field (ny, nx) from y = low to high, m, times their width."""
+    covered = np.clip(np.minimum(grid.y + grid.dy / 2, high) - np.maximum(grid.y - grid.dy / 2, low), 0, None)
+    return float((covered[:, None] * field).sum())
 
 
 def _amplitudes(group: str, contact: Contact, references: tuple[float, float, float]) -> Iterator[Check]:

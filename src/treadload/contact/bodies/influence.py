@@ -81,7 +81,7 @@ class Influence:
 
     def strips(self, padding: Padding) -> Strips | None:
         """The operators of these rows in the length of a padded space; None of a pair that has none."""
-        return self._strips_of(padding.shape[1])
+        return self.strips_of(padding.shape[1])
 
     def strips_ahead(self, distance: float) -> Strips | None:
         """`strips` in `padding` with the displacement at a distance ahead of the cells along x, m."""
@@ -111,7 +111,8 @@ class Influence:
             rows[strip.rows] = True
         return rows
 
-    def _strips_of(self, length: int) -> Strips | None:
+    def strips_of(self, length: int) -> Strips | None:
+        """`strips` with loads that repeat after so many cells along travel."""
         if not self._strips:
             return None
         if length not in self._lengths:
@@ -138,9 +139,14 @@ class Influence:
     def _inverses(self) -> dict[tuple[int, ...], StripInverse]:
         return {}
 
+    @cached_property
+    def derived(self) -> dict[str, Influence]:
+        """Operators that were made of these, by what they are; kept as long as these."""
+        return {}
+
     def _inverse_of(self, components: tuple[int, ...]) -> StripInverse:
         length = int(fft.next_fast_len(self.shape[1], real=True))
-        strips = self._strips_of(length)
+        strips = self.strips_of(length)
         assert strips is not None
         # Of what lags behind, the part in phase.
         strips = replace(strips, blocks=tuple(block.real for block in strips.blocks))
@@ -178,10 +184,18 @@ class Influence:
     @cached_property
     def normal(self) -> Product:
         """Gap opening by pressure, m/Pa."""
+        return self._with_strips(self.convolved_normal)
+
+    @cached_property
+    def normal_single(self) -> Product:
+        """`normal` of an elastic pair in single precision, for pressure in it."""
+        convolved = self.convolved_normal
+        return self._with_strips(replace(convolved, spectrum=convolved.spectrum.astype(np.float32)))
+
+    def _with_strips(self, convolved: Convolution) -> Product:
         strips = self.strips(self.padding)
         if strips is None:
-            return self.convolved_normal
-        convolved = self.convolved_normal
+            return convolved
 
         def both(pressure: Array) -> Array:
             return strips.added_to(lambda along: [convolved(pressure, along)], pressure[None], (2,))[0]
@@ -253,12 +267,15 @@ class Influence:
 
     def gap_by_shear(self, shear: Array) -> Array:
         """Gap opening (ny, nx), m, by shear (2, ny, nx) on body 1, Pa: zero for like bodies."""
-        spectra = self.padding.forward(shear)
-        opening = self.padding.inverse((self._coupling(self.padding)[0] * spectra).sum(0))
+        opening = self.convolved_gap(shear)
         strips = self.strips(self.padding)
         if strips is not None:
-            opening += strips.displacement(shear, (0, 1), (2,), self.shape[1])[0]
+            opening = opening + strips.displacement(shear, (0, 1), (2,), self.shape[1])[0]
         return opening
+
+    def convolved_gap(self, shear: Array) -> Array:
+        """The part of `gap_by_shear` that is the same everywhere: all of it, but of a pair with strips."""
+        return self.padding.inverse((self._coupling(self.padding)[0] * self.padding.forward(shear)).sum(0))
 
     def slip_by_pressure(self, pressure: Array) -> Array:
         """u(x) - u(x + dx) (2, ny, nx), m, by pressure (ny, nx), Pa: zero for like bodies."""

@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from treadload.contact.bodies.condensed import CondensedInfluence
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.friction.laws import Interface
 from treadload.contact.rolling_state import Rolling
@@ -103,16 +104,25 @@ def solve_coupled(
     """
     grid, gap, rows = surfaces.grid, surfaces.gap, surfaces.rows
     coupled = abs(influence.dundurs) > tolerance
+    # Under friction, ribs press with a share of what their shear will do. Where friction falls with slip there may be
+    # two steady states, and the plain rounds lead to the one that sticks more.
+    foresees = coupled and rolling.law.largest > 0 and not rolling.law.needs_speed
+    condensed = CondensedInfluence.of(influence) if foresees else None
+
+    def opened(shear: Array, pressure: Array) -> Array:
+        """What the gap has besides the initial one and what pressing adds."""
+        return influence.gap_by_shear(shear) if condensed is None else condensed.gap_by(shear, pressure)
+
     offset: Array = np.zeros(grid.shape)
     last = None if start is None else start.tangential
-    if coupled and last is not None:
-        offset = influence.gap_by_shear(last.shear)
+    if coupled and start is not None and last is not None:
+        offset = opened(last.shear, start.pressure)
 
     def press(by_shear: Array, near: Array | None, within: float) -> NormalSolution:
         control = {"load": rolling.normal_load, "approach": rolling.approach}
         # Shear moves the gap's zero a little, and with it what the tolerance is relative to.
         share = 0.5 if coupled else 1.0
-        return solve_normal(influence, gap + by_shear, **control, start=near, tolerance=share * within)
+        return solve_normal(condensed or influence, gap + by_shear, **control, start=near, tolerance=share * within)
 
     # Ribs couple strongly, and no round needs to be much better than the pressure that it starts from.
     striped = coupled and influence.has_strips
@@ -151,7 +161,7 @@ def solve_coupled(
             check(normal.pressure)
             return Coupled(normal, slipping, rounds, change, iterations, newton, krylov, splitting)
         # The same pressure with the gap and the approach that this very shear makes.
-        opening = influence.gap_by_shear(last.shear)
+        opening = opened(last.shear, normal.pressure)
         fitting = normal.under(gap + opening, opening - offset, loaded=rolling.normal_load is not None)
         settled = rounds > 1 and change <= tolerance and aim <= within
         if settled and fitting.residual <= tolerance:

@@ -130,6 +130,7 @@ def _by_gradients(
             total=total,
             level=approach,
             precondition=inverse,
+            single_product=influence.normal_single if influence.has_strips else None,
             self_influence=influence.normal_self_influence,
             tolerance=tolerance,
         )

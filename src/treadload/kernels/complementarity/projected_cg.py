@@ -66,6 +66,7 @@ def solve(
     total: float | None = None,
     level: float | None = None,
     precondition: Product | None = None,
+    single_product: Product | None = None,
     window: Window | None = None,
     self_influence: float = float("inf"),
     tolerance: float = 1e-6,
@@ -75,7 +76,8 @@ def solve(
 
     product: A, symmetric and positive definite. gap: h (ny, nx), NaN where no pressure can act.
     start: p ≥ 0 (ny, nx) to begin with. total: prescribed sum of p; or level: prescribed approach.
-    precondition: an approximate inverse of A. window: in its place, for operators that are the same everywhere:
+    precondition: an approximate inverse of A. single_product: A in single precision, for the inner loop; left out, it
+    runs in double precision. window: in place of both, for operators that are the same everywhere:
     A and the inverse on a part of (ny, nx) cells, in single precision if True. self_influence: diagonal of A; where
     it is left out, clipped pressure is made good at once.
     Cells that penetrate enter without a restart, and the search direction stays conjugate by
@@ -97,9 +99,7 @@ def solve(
         p *= total / float(xp.sum(p))
     counts = _Counts(max_iterations)
     part = slice(0, p.shape[0]), slice(0, p.shape[1])
-    if precondition is not None:
-        operators = product, precondition
-    single, last = window is not None, float("inf")
+    single, last = window is not None or single_product is not None, float("inf")
     while True:
         u = product(p)
         counts.products += 1
@@ -117,6 +117,8 @@ def solve(
         single = single and residual <= _PROGRESS * last
         last = residual
         goal = max(_AIM * tolerance, _DIGITS * residual if single else 0.0) * scale
+        if precondition is not None:
+            operators = (product if single_product is None or not single else single_product), precondition
         if window is not None:
             part = _bounding_box(xp, active | (material & (separation < 0)))
             operators = window((_length(part[0]), _length(part[1])), single)

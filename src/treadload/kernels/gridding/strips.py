@@ -36,6 +36,7 @@ class Strips:
     _parts: dict[tuple[tuple[int, ...], tuple[int, ...], str], list[tuple[IntArray, Array]]] = field(
         default_factory=dict, init=False, repr=False
     )
+    _of_itself: dict[int, Array] = field(default_factory=dict, init=False, repr=False)
 
     def added_to(
         self,
@@ -115,11 +116,13 @@ class Strips:
 
     def alone(self, component: int, places: int) -> Array:
         """Mean displacement of a cell by its own load at distances of 0, 1, … cells along travel: (places,), m/Pa."""
-        diagonal = np.concatenate(
-            [np.diagonal(self._block(b, (component,), (component,)), axis1=1, axis2=2) for b in self.blocks], axis=1
-        )
-        along: Array = fft.irfft(diagonal.mean(1) + 0j, n=self.length)[:places]
-        return along
+        if component not in self._of_itself:
+            diagonal = np.concatenate(
+                [np.diagonal(self._block(b, (component,), (component,)), axis1=1, axis2=2) for b in self.blocks],
+                axis=1,
+            )
+            self._of_itself[component] = fft.irfft(diagonal.mean(1) + 0j, n=self.length)
+        return self._of_itself[component][:places]
 
 
 @dataclass(frozen=True, eq=False)
