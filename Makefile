@@ -52,11 +52,11 @@ lint: $(STAMP)
 
 # The site, in build/docs/index.html; a warning fails.
 docs: $(STAMP)
-	rm -rf build/docs docs/auto_gallery
+	rm -rf build/docs docs/auto_gallery docs/auto_validation docs/executed
 	$(BIN)/python -m sphinx -q -W --keep-going -E -d build/doctrees docs build/docs
 
 bench: $(STAMP)
 	$(BIN)/python benchmarks/run_all.py
 
 clean:
-	rm -rf $(VENV) demo build dist docs/auto_gallery .pytest_cache .mypy_cache .ruff_cache
+	rm -rf $(VENV) demo build dist docs/auto_gallery docs/auto_validation docs/executed .pytest_cache .mypy_cache .ruff_cache

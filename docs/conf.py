@@ -21,7 +21,9 @@ extensions = [
     "house_reference",
     "house_math",
     "house_offline",
+    "executed_pages",
 ]
+executed_pages = ["tutorials/*.md", "coming_from/*.md"]
 exclude_patterns = ["_ext", "gallery", "auto_gallery/*.ipynb", "auto_gallery/*.py", "**/sg_execution_times.rst"]
 root_doc = "index"
 
