@@ -24,7 +24,14 @@ extensions = [
     "executed_pages",
 ]
 executed_pages = ["tutorials/*.md", "coming_from/*.md"]
-exclude_patterns = ["_ext", "gallery", "auto_gallery/*.ipynb", "auto_gallery/*.py", "**/sg_execution_times.rst"]
+exclude_patterns = [
+    "_ext",
+    "gallery",
+    "validation_gallery",
+    "auto_*/*.ipynb",
+    "auto_*/*.py",
+    "**/sg_execution_times.rst",
+]
 root_doc = "index"
 
 myst_enable_extensions = ["dollarmath", "deflist", "colon_fence"]
@@ -42,8 +49,8 @@ python_use_unqualified_type_names = True
 toc_object_entries = False
 
 sphinx_gallery_conf = {
-    "examples_dirs": "gallery",
-    "gallery_dirs": "auto_gallery",
+    "examples_dirs": ["gallery", "validation_gallery"],
+    "gallery_dirs": ["auto_gallery", "auto_validation"],
     "filename_pattern": r"/plot_",
     "download_all_examples": False,
     "show_signature": False,
@@ -61,6 +68,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = "treadload"
 html_static_path = ["_static"]
 html_css_files = ["house.css"]
+html_js_files = ["filter_table.js"]
 html_favicon = "_static/mark.svg"
 html_show_sourcelink = False
 html_copy_source = False

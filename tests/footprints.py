@@ -27,7 +27,7 @@ def edges(grid):
 
 def sensed(load, *, pitch=8e-3, cells=(38, 33), shift=(0.0, 0.0), angle=0.0, noise=0.0, threshold=0.0,
            saturation=np.inf, turns=0, mirrored=False, seed=1):  # fmt: skip
-    """What a sensor tells of a load.
+    """What a sensor states of a load.
 
     shift: of its middle, m. angle: of its axes, rad. turns, mirrored: of its print.
     """

@@ -149,7 +149,7 @@ def read_tree(path: Path, kind: str) -> xr.DataTree:
         if why.startswith(_TWICE):
             why = "a variable has the same dimension twice; give the second another name"
         if isinstance(error, UnicodeDecodeError):
-            why = f"the name or label {error.object!r} is not UTF-8; write it anew"
+            why = f"the name or label {error.object!r} is not UTF-8; write it again"
         raise InputError(f"cannot read {path} as {kind}: {why}") from error
 
 

@@ -90,7 +90,7 @@ def undecided_in_words(names: Sequence[str], values: Array, directions: Array, s
         sought = " and ".join(names[k] for k in order) if len(order) < 3 else ", ".join(names[k] for k in order)
         if not reach < 10:
             what = "it" if len(order) == 1 else "their change together"
-            caveats.append(f"these data leave {sought} undecided: no reading feels {what}")
+            caveats.append(f"these data leave {sought} undecided: no reading depends on {what}")
         elif len(order) == 1:
             caveats.append(
                 f"these data leave {sought} undecided: its standard deviation is {100 * reach:.0f} % of it"

@@ -103,7 +103,7 @@ RANGES: dict[str, Range] = {
     ),
     "depth": Range(
         "m", 0.0, 50.0, (1e-3, 3.0), "roads are usually read at", (("m", 1.0), ("cm", 1e-2), ("mm", 1e-3)),
-        "Below 50 m no wheel is felt.",
+        "Below 50 m no wheel has an effect.",
     ),
     "number of passes per year": Range(
         "", 1.0, 1e8, (1e3, 2e7), "wheel paths usually see", (("", 1.0),),

@@ -111,7 +111,7 @@ class Table:
         elif cell.casefold() in _INFINITE:
             why = "is infinite"
         else:
-            why = f"is {_shortened(cell)}, not a number; a cell without a value is empty or says NaN"
+            why = f"is {_shortened(cell)}, not a number; a cell without a value is empty or NaN"
         raise InputError(
             f"{self.path}, line {self.lines[row]}: {name(column)} {why} (row {row + 1}, column {column + 1})"
         )

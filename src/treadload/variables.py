@@ -101,7 +101,7 @@ _TEXTURE = {
     "real_area_ratio": ("1", "share of the area that really touches"),
     "mean_gap": ("m", "mean separation of rubber and texture"),
     "persson_area_ratio": ("1", "share of the area that touches after Persson's theory"),
-    "asperity_area_ratio": ("1", "share of the area that touches where asperities do not feel each other"),
+    "asperity_area_ratio": ("1", "share of the area that touches where asperities do not affect each other"),
     "load_share_above": ("1", "share of the load that is carried by pressures above a local one"),
     "area_share_above": ("1", "share of the area that is under pressures above a local one"),
     "reference_pressure": ("Pa", "mean pressure of the fields on the texture"),
@@ -117,7 +117,7 @@ _CROSSING = {
     "edge_pressure": ("Pa", "largest contact pressure within a cell of an edge of the road"),
     "share_before": ("1", "share of the load that the road before the first edge carries"),
     "share_beyond": ("1", "share of the load that the road beyond the last edge carries"),
-    "highest_pressure": ("Pa", "largest contact pressure that a place of the road has borne"),
+    "highest_pressure": ("Pa", "largest contact pressure that a place of the road has carried"),
     "plain_pressure": ("Pa", "largest contact pressure on the road without the obstacle"),
     "plain_work": ("J/m^2", "largest closing work on the road without the obstacle"),
     "edge_work": ("J/m^2", "largest closing work within a cell of an edge of the road"),
@@ -399,7 +399,7 @@ _BASINS = {
     "modulus_high": ("Pa", "upper end of the 90 % interval of a fitted modulus"),
     "modulus_deviation": (
         "1",
-        "standard deviation of ln E of a fitted modulus; NaN if fixed, at a bound or not felt",
+        "standard deviation of ln E of a fitted modulus; NaN if fixed, at a bound or without effect",
     ),
     "law_factor": ("1", "factor on the law of a stress-dependent layer"),
     "modulus_at_reference": ("Pa", "fitted modulus at the reference temperature, by the mix of the layer"),
@@ -537,9 +537,9 @@ _INTERFACES = {
 }
 
 _FOOTPRINT = {
-    "computed_pressure": ("Pa", "computed contact pressure as the sensor tells it: a mean over each sensel"),
+    "computed_pressure": ("Pa", "computed contact pressure as the sensor records it: a mean over each sensel"),
     "measured_pressure": ("Pa", "contact pressure that was measured"),
-    "pressure_difference": ("Pa", "computed contact pressure, as the sensor tells it, less the measured one"),
+    "pressure_difference": ("Pa", "computed contact pressure, as the sensor records it, less the measured one"),
     "print_load": ("N", "load that a footprint carries"),
     "net_area": ("m^2", "area of the loaded cells of a footprint"),
     "gross_area": ("m^2", "area inside the convex outline of a footprint"),

@@ -112,7 +112,7 @@ def test_what_is_wrong_with_a_strangers_file_is_a_text(visit, kind):
 def anew(one):
     """The first case again, solved."""
     before = one.solves()
-    one.page.get_by_role("button", name="begin anew").click()
+    one.page.get_by_role("button", name="start again").click()
     one.ready(before + 1)
     one.done()
 
@@ -221,7 +221,7 @@ def test_what_a_case_asks_for_besides_is_named_beside_its_result(visit):
     said = page.locator("#unsolved").inner_text()
     assert "did not solve [crossing]" in said
     assert "treadload run case.toml" in said
-    page.get_by_role("button", name="begin anew").click()
+    page.get_by_role("button", name="start again").click()
     visit.ready(before + 2)
     assert page.locator("#unsolved").count() == 0
     visit.done()

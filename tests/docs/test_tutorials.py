@@ -105,8 +105,8 @@ def test_kenpave_prints_what_is_quoted_and_agrees(follow):
 
 
 def test_alize_prints_what_is_quoted_and_agrees(follow):
-    """Table I.5 within its tolerance of 0.003 MPa, I.1 to half of the last digit; allowable strains by a quantile that
-    the second program rounds."""
+    """Table I.5 within its tolerance of 0.003 MPa, I.1 to half of the last digit; 1e-4 for allowable strains, whose
+    quantile the second program rounds."""
     names = follow("coming_from/alize").names
     table = json.loads((TABLES / "nf_p98_086_table_I5.json").read_text("utf-8"))
     page = (DOCS / "coming_from" / "alize.md").read_text("utf-8")
@@ -131,7 +131,7 @@ def test_contact_prints_what_is_quoted_and_agrees(follow):
 
 
 def test_viscoroute_prints_what_is_quoted_and_agrees(follow):
-    """ELLVA to 2.5 %: it moves the load in jumps along a finite path; the largest to 1e-4 of the second computation."""
+    """ELLVA to 2.5 %, as it moves the load in jumps along a finite path; the largest to 1e-4 of a second program."""
     names = follow("coming_from/viscoroute").names
     table = json.loads((TABLES / "ellva_moving_load.json").read_text("utf-8"))
     rows = {row[0]: row[2] for row in table["published"]["rows"]}

@@ -198,7 +198,7 @@ def test_directions_in_words():
     assert undecided_in_words(["arm"], np.array([1.0]), np.eye(1), 1.0) == [
         "these data leave arm undecided: its standard deviation is 100 % of it"
     ]
-    assert "no reading feels it" in undecided_in_words(["arm"], np.array([0.0]), np.eye(1), 1.0)[0]
+    assert "no reading depends on it" in undecided_in_words(["arm"], np.array([0.0]), np.eye(1), 1.0)[0]
     assert not undecided_in_words(["arm"], np.array([2.1]), np.eye(1), 1.0)
 
 
@@ -211,7 +211,7 @@ def test_a_fit_at_its_bound_and_data_at_odds_are_told(exact):
     assert "they contradict each other or the model" in told
     assert np.isnan(found.standard_deviation("foundation"))
     assert np.isfinite(found.standard_deviation("crown_radius"))
-    assert "not told" in found.summary()
+    assert "not determined" in found.summary()
 
 
 def test_without_errors_the_scatter_tells_them(exact):
@@ -242,7 +242,7 @@ def test_a_search_goes_on_from_its_state(exact, fitted):
         calibrate(TIRE, list(TRUE), found.data, spacing=14e-3, state=state)
     broken = state.with_name("broken.json")
     broken.write_text(json.dumps({"calibration": "x"})[:-3])
-    with pytest.raises(tl.InputError, match="remove it to begin anew"):
+    with pytest.raises(tl.InputError, match="remove it to start again"):
         calibrate(TIRE, list(TRUE), found.data, spacing=COARSE, state=broken)
 
 
@@ -297,7 +297,7 @@ ROW = Measured(load=30e3, deflection=0.03)
     ("sought", "data", "more", "word"),
     [
         (["foundatoin"], [ROW], {}, "did you mean 'foundation'"),
-        (["foundation", "crown_radius"], [ROW], {}, "1 readings cannot tell 2 numbers"),
+        (["foundation", "crown_radius"], [ROW], {}, "1 readings cannot determine 2 numbers"),
         ([], [ROW], {}, "needs something to seek"),
         (["arm", "arm"], [ROW], {}, "arm is sought twice"),
         (["camber"], [ROW], {}, "this tire has no camber"),
@@ -305,7 +305,7 @@ ROW = Measured(load=30e3, deflection=0.03)
         ([Unknown("arm", start="25 mm")], [ROW], {}, "outside its bounds 0 to 0.02"),
         ([Unknown("arm", low="5 mm", high="4 mm")], [ROW], {}, "leaves nothing"),
         (["belt_radius"], [ROW], {}, "starts at inf"),
-        (["foundation"], [], {}, "needs data|cannot tell"),
+        (["foundation"], [], {}, "needs data|cannot determine"),
         (["foundation"], [ROW], {"errors": {"deflecton": 1e-3}}, "did you mean 'deflection'"),
         (["foundation"], [ROW], {"errors": {"deflection": -1e-3}}, "error of deflection must be a positive"),
         (["foundation"], [ROW], {"jobs": 0}, "jobs must be a whole number"),
@@ -387,7 +387,7 @@ def test_a_map_tells_the_crown_wherever_it_lay():
     assert found.dataset["residual"].std() < found.dataset["residual_before"].std()
     opened = tl.results.Results(tl.results.to_tree(found)).calibration
     assert opened.comparisons[0].sentence == found.comparisons[0].sentence
-    with pytest.raises(tl.InputError, match=r"carries 30 kN and its row says 50 kN, -40 %"):
+    with pytest.raises(tl.InputError, match=r"carries 30 kN and its row gives 50 kN, -40 %"):
         Measured(load=50e3, footprint=seen).loaded()
     empty = Measured(load=50e3, footprint=tl.response.GridLoad(Grid.centred(0.1, 0.1, 0.01), np.zeros((10, 10))))
     with pytest.raises(tl.InputError, match="no load"):

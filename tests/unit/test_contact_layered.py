@@ -218,7 +218,7 @@ def test_layers_with_a_grain_tell_their_share_or_why_not():
     unknown = contact(STEEL, grained)
     assert "road_share" not in unknown.stats
     (text,) = [text for text in unknown.warnings if "is not known" in text]
-    assert "layer 'base' has a horizontal grain; a TransverselyIsotropic or an Elastic in its place tells" in text
+    assert "layer 'base' has a horizontal grain; a TransverselyIsotropic or an Elastic in its place shows" in text
     # Under a soft tire the road does not matter.
     assert not any("is not known" in text for text in contact(tl.Elastic(2e6, 0.5), grained).warnings)
 

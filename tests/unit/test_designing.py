@@ -83,7 +83,7 @@ def test_a_risk_goes_into_the_laws_that_have_one():
     assert few.life.laws[0][0].risk == 0.01
     assert few.life.laws[0][0].thickness == pytest.approx(0.06 + few.thickness)
     assert any(text.startswith("soil: its law") and "no risk" in text for text in few.warnings)
-    with pytest.raises(InputError, match="says nothing; give the design a scatter"):
+    with pytest.raises(InputError, match="has no meaning; give the design a scatter"):
         designed((SOIL,), risk=0.05)
 
 

@@ -151,7 +151,7 @@ def test_a_file_holds_a_drum_and_its_figures_read_it(rolled, tmp_path):
                     tl.materials.ElastoPlastic(tl.Elastic(1e8, 0.3), PassesPowerLaw(1, 0.5))
                 )
             },
-            "a PassesPowerLaw has no flow that the drum could feel",
+            "a PassesPowerLaw has no flow that could act on the drum",
         ),
         ({"depth": 0.006}, "the plastic zone reaches the depth of the box, 0.006 m"),
     ],
@@ -167,5 +167,5 @@ def test_what_cannot_be_rolled_is_refused_in_a_sentence(change, words):
 def test_a_soft_road_under_a_drum_says_that_it_has_no_steady_pass():
     """Without hardening and far above its strength; the sentence has the residual and what to do."""
     weak = tl.Pavement.half_space(tl.materials.ElastoPlastic(tl.Elastic(MODULUS, 0.35), MohrCoulomb(2e3, 0.2)))
-    with pytest.raises((tl.InputError, ConvergenceError), match=r"no steady pass|far above what the road bears"):
+    with pytest.raises((tl.InputError, ConvergenceError), match=r"no steady pass|far above what the road can carry"):
         roll_drum(BALL, weak, 6 * LOAD, passes=1, spacing=(8e-3, 8e-3), layers=3)

@@ -85,7 +85,7 @@ def test_mechanics_that_know_nothing_are_refuted(beside):
     assert rows[TRUSTED, "score_verdict"].value == "loss"
     assert rows[FITTED, "score_verdict"].value == "no gain"
     assert "these data do not support" in rows["", "unsupported"].value
-    assert "not told apart by these data" in rows["", "variants"].value
+    assert "not distinguished by these data" in rows["", "variants"].value
     assert rows["", "field_factor"].value == pytest.approx(5.15 / data.attrs["mechanics_level"], rel=0.01)
     assert "lose" in rows["", "verdict"].value
     assert rows["", "about_mechanics"].value == "drawn"
@@ -237,7 +237,7 @@ def test_ltpp_beside_the_mechanics_of_this_program(stored):
     # The final model may lose 2 nats at most against ages alone; it is ages alone, and the fitted power is no worse.
     assert float(data["score_gain"].sel(model=FITTED)) > -2
     assert data.attrs["power_high"] < 0.1
-    assert "not told apart by these data" in rows["", "variants"].value
+    assert "not distinguished by these data" in rows["", "variants"].value
     shift = tl.damage.field_shifts["LTPP"]
     assert shift.predicted_fresh == pytest.approx(data.attrs["mechanics_level"], rel=1e-3)
     assert shift.predicted_aged == pytest.approx(data.attrs["predicted_aged"], rel=1e-3)

@@ -79,15 +79,15 @@ def test_all_criteria_stand_side_by_side_in_the_order_in_which_they_fail():
     assert page.rows[0][0] in page.sentence
     # Who, what, where, which way, by which class in which season, how much of what is allowed, after how long.
     top = by_name["top-down"]
-    assert top["by whom"] == "Materials 2021, 14, 2117"
+    assert top["author"] == "Materials 2021, 14, 2117"
     assert top["largest evaluated value"] == "100 microstrain"
     assert (top["depth, mm"], top["y, mm"]) == ("0", "0")
     assert top["first crack"].startswith("longitudinal (100 % of the damage)")
     assert top["most damage by"] == "heavy, all year (93 %)"
     allowed = LINE.allowable_strain(1e5 * 20.0)
     assert float(top["utilisation in 20 years"]) == pytest.approx(100e-6 / allowed, rel=0.05)  # two digits
-    assert by_name["by Mazars"]["by whom"] == "Mazars (1986)"
-    assert by_name["soil"]["by whom"] == "NF P98-086 (2019)"
+    assert by_name["by Mazars"]["author"] == "Mazars (1986)"
+    assert by_name["soil"]["author"] == "NF P98-086 (2019)"
     assert by_name["soil"]["depth, mm"] == "210, top of a layer"
     assert by_name["soil"]["first crack"] == "ruts, no crack"
     shoving = by_name["shoving"]
@@ -105,14 +105,14 @@ def test_a_page_without_a_crack_does_not_speak_of_one(tmp_path):
     """All planes nearer to the horizontal than 45°, or none: no orientation, no "crack" but where it is denied."""
     life = a_life((44.0, 20.0, np.nan, np.nan))
     page = first_of_life(to_tree(life)["life"].to_dataset())
-    assert page.heading == "Where would it fail first, by whom"
+    assert page.heading == "Predicted failure by criterion"
     said = " ".join([page.heading, page.sentence, *(cell for row in page.rows for cell in row)])
     assert not re.search("crack|longitudinal|transverse|oblique", DENIED.sub("", said))
     assert "parallel to the surface (100 % of the damage)" in said
     steep = first_of_life(to_tree(a_life((46.0, 20.0, np.nan, np.nan)))["life"].to_dataset())
-    assert steep.heading == "Where would it crack first, by whom"
+    assert steep.heading == "Predicted cracking by criterion"
     html = write_report({"a": to_tree(life)}, tmp_path / "r.html").read_text()
-    assert "Where would it fail first, by whom" in html
+    assert "Predicted failure by criterion" in html
     assert "Where would it crack first" not in html
 
 

@@ -259,7 +259,7 @@ def test_figures(noisy):
         noisy.plot.cuts(x=9.0)
     with pytest.raises(tl.InputError, match="this figure needs rib_left"):
         tl.plots.rib_shares(noisy.dataset.drop_vars("rib_left"))
-    with pytest.raises(tl.InputError, match="print_load is not told of the map 'seen', only of computed"):
+    with pytest.raises(tl.InputError, match="print_load is not stated of the map 'seen', only of computed"):
         tl.plots.comparison_maps(noisy.dataset.isel(map=[0]))
 
 

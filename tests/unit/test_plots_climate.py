@@ -1,4 +1,4 @@
-"""What a life tells of its climate over depth, and the two figures of it: they show what was solved."""
+"""What a life states of its climate over depth, and the two figures of it: they show what was solved."""
 
 from dataclasses import replace
 

@@ -185,7 +185,7 @@ def test_of_many_cases_evenly_some_are_drawn():
     [
         (lambda plot: plot.curve("strain"), "the study has no 'strain'"),
         (lambda plot: plot.curve("worst_strain", "speed"), "does not vary 'speed'; it varies friction, normal_load"),
-        (lambda plot: plot.curve("worst_strain", "friction", by="friction"), "cannot be told apart by friction"),
+        (lambda plot: plot.curve("worst_strain", "friction", by="friction"), "cannot be distinguished by friction"),
         (lambda plot: plot.curve("worst_strain", at={"speed": 3}), "does not vary 'speed'"),
         (lambda plot: plot.curve("worst_strain", "friction", at={"friction": 0.4}), "is not cut at friction"),
         (lambda plot: plot.curve("largest_extension", at={"depth": "deep"}), "depth is a number in SI units"),

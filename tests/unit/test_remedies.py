@@ -93,7 +93,7 @@ def test_it_states_what_was_solved_and_how(answer):
     assert int(anew.sel(remedy="50 mm more wander")) == 0
     assert int(anew.sum()) == anew.size - 1 == answer.stats["responses"]
     assert answer.stats["contacts"] == 6
-    assert "1 summed anew from the same responses, none by derivative" in answer.summary()
+    assert "1 summed again from the same responses, none by derivative" in answer.summary()
 
 
 def test_what_does_not_apply_is_named_with_its_reason(answer):

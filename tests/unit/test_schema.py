@@ -75,7 +75,7 @@ BREAKS = {
         lambda d: d.assign_coords(depth=np.concatenate([[0.0] * 3, d["depth"].to_numpy()[3:]])),
         "depth 0 m is there more than twice",
     ),
-    "nowhere": ("contact", lambda d: d.drop_vars("x"), "does not say where"),
+    "nowhere": ("contact", lambda d: d.drop_vars("x"), "does not state where"),
     "of a fourth state": ("contact", lambda d: d.assign(state=d.state + 3), "values other than 0 to 2"),
     "with a force of NaN": (
         "contact",

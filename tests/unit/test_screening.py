@@ -187,7 +187,7 @@ def test_tornado_of_a_real_case_is_its_finite_difference():
 
 def test_what_cannot_be_asked_is_refused_in_a_sentence(stand_in):
     stand_in(lambda u: u[0])
-    with pytest.raises(tl.InputError, match=r"largest_extension is over depth: 0, 0.02; say which, at=\{'depth'"):
+    with pytest.raises(tl.InputError, match=r"largest_extension is over depth: 0, 0.02; state which, at=\{'depth'"):
         screening.tornado(CASE, RANGES, "largest_extension")
     deep = screening.tornado(CASE, RANGES, "largest_extension", at={"depth": 0.02})
     assert deep.dataset.attrs["place"] == "depth 20 mm"

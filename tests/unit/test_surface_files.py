@@ -180,7 +180,7 @@ BAD = {
     "nothing.x3p": (b"", "0 bytes"),
     "words.x3p": (b"1 2 3\n" * 50, "no ZIP archive"),
     "cut.x3p": (X3P[:200], "could not be read as X3P"),
-    "larger.x3p": (of_header(nx=10), "360 bytes, and its header tells of 400"),
+    "larger.x3p": (of_header(nx=10), "360 bytes, and its header states 400"),
     "huge.x3p": (of_header(nx=10**8, ny=10**8), "points at most"),
     "line.x3p": (of_header(nx=1, ny=45), "two columns or more"),
     "nan.x3p": (of_header(dx=float("nan")), "positive number"),
@@ -240,7 +240,7 @@ def test_an_archive_that_lies_about_the_length_of_a_member(tmp_path):
             archive.writestr(name, content)
         archive.filelist[1].file_size = archive.filelist[1].compress_size = 8
     (tmp_path / "a.x3p").write_bytes(stream.getvalue())
-    with pytest.raises(InputError, match="8 bytes, and its header tells of 360"):
+    with pytest.raises(InputError, match="8 bytes, and its header states 360"):
         read_texture(tmp_path / "a.x3p")
     # One flipped bit in the data is found by the checksum of the archive.
     whole = archived(members)

@@ -224,7 +224,7 @@ def test_a_damaged_description_is_refused_and_mended_by_the_same_command(solved,
     with pytest.raises(InputError, match=r"its study\.json cannot be trusted, .*the same `treadload sweep` mends it"):
         open_sweep(path)
     whole = tl.sweep(case, VARY, fields=FIELDS, store=path)
-    assert "was damaged and is written anew" in of_the_store(whole)[0]
+    assert "was damaged and is written again" in of_the_store(whole)[0]
     assert same(whole.dataset, memory)
     # Without the mark nothing says which study it is.
     flipped(path / "study.json", 40)

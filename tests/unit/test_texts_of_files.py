@@ -61,7 +61,7 @@ def test_names_and_labels_that_are_not_utf8_are_refused(saved, tmp_path):
         group.links.move(b"pressure", group, b"press\xff")
     with pytest.raises(
         tl.InputError,
-        match=r"cannot read .*damaged\.nc as a result .*: the name or label b'press.*not UTF-8; write it anew",
+        match=r"cannot read .*damaged\.nc as a result .*: the name or label b'press.*not UTF-8; write it again",
     ):
         tl.open_results(path)
 

@@ -77,7 +77,7 @@ def test_opencrg_sections_of_their_own_places(tmp_path):
         ("REFERENCE_LINE_INCREMENT = 0.5", "", "needs REFERENCE_LINE_INCREMENT"),
         ("REFERENCE_LINE_END_U = 4.0", "REFERENCE_LINE_END_U = 9.0", "rows are missing or too many"),
         ("LONG_SECTION_V_INCREMENT = 0.5", "LONG_SECTION_V_INCREMENT = 0.1", "do not reach from"),
-        ("LONG_SECTION_V_LEFT = 0.75", "LONG_SECTION_V_LEFT = -2", "says not where"),
+        ("LONG_SECTION_V_LEFT = 0.75", "LONG_SECTION_V_LEFT = -2", "does not state where"),
         ("#:LRFI", "#:LRBI", "the format 'LRBI'; known are"),
         ("D:long section 4,m", "D:long section 4,feet", "must be in m"),
         ("D:long section 4,m", "D:temperature,m", "is none of OpenCRG's"),

@@ -321,7 +321,9 @@ def test_bad_input():
         Thermal(relaxation="ViscoRout")
     with pytest.raises(InputError, match="'ELLVA1' has no shift"):
         Thermal(relaxation="ELLVA1")
-    with pytest.raises(InputError, match="mix 'BBM' is tabulated at 10 Hz only, which does not say how it relaxes"):
+    with pytest.raises(
+        InputError, match="mix 'BBM' is tabulated at 10 Hz only, which does not define how it relaxes"
+    ):
         relaxation_of(mixes["BBM"])
 
 

@@ -1,4 +1,4 @@
-"""The tire card: what a tire tells of itself, against definitions, limits and a textbook set."""
+"""The tire card: what a tire states of itself, against definitions, limits and a textbook set."""
 
 import math
 from dataclasses import replace

@@ -74,7 +74,7 @@ class CaseForm(Uploads):
             self.upload("open a TOML …", (".toml",), None)
             for text, (suffixes, opened) in self._files.items():
                 self.upload(text, suffixes, opened)
-            plain("begin anew", lambda: self.again(Form.first(self.form.command)))
+            plain("start again", lambda: self.again(Form.first(self.form.command)))
         for sentence in self.form.schema.broken:
             ui.label(sentence).classes("warning")
         self.check()

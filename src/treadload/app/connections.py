@@ -8,9 +8,9 @@ from typing import Any, ClassVar
 from uvicorn.protocols.http.auto import AutoHTTPProtocol
 
 PATIENCE = 10.0
-"""How long a caller may take to say what it wants, s."""
+"""How long a caller may take to send its request, s."""
 MOST_WAITING = 64
-"""Callers that have not said yet what they want; one more, and the one that waits longest is closed."""
+"""Callers that have not sent a request yet; one more, and the one that waits longest is closed."""
 
 _Base: Any = AutoHTTPProtocol
 

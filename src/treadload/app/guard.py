@@ -36,7 +36,7 @@ MOST_SENT = 2**20
 SESSION = "treadload.session"
 """Key of a request's scope under which its session stands."""
 HEALTH = "/health"
-"""Address that says to anybody that the server runs."""
+"""Address that answers anybody whether the server runs."""
 PREFIX = "x-forwarded-prefix"
 """Header of the path below which the page lies, which the framework reads; the guard alone sets it."""
 
@@ -257,7 +257,7 @@ class Guard:
             # Nobody has the page of a tab that was away too long: the handshake fails, and the tab loads it again.
             named += [name for name in query.get("client_id", []) if self._keys.is_owned(name)]
         if any(not self._keys.may_use(name, session) for name in named):
-            return Refusal(403, "this page belongs to another browser, or the server was started anew; load it again")
+            return Refusal(403, "this page belongs to another browser, or the server was restarted; load it again")
         return None
 
     async def _enter(self, scope: Scope, token: str, session: str | None, send: Send) -> None:

@@ -37,7 +37,7 @@ class LifePage(Page):
             self._form = self.left = CaseForm(self.session, self.address, self.solve)
             self.left.build()
         with ui.element("section").classes("centre").props('aria-label="the life"'):
-            self._hint = ui.label("Solve the case to see how long the road lasts; each change solves it anew.")
+            self._hint = ui.label("Solve the case to see how long the road lasts; each change solves it again.")
             self._hint.classes("note").props('id="hint"')
             with ui.element("div").classes("tools"):
                 self._by = ui.select({"": "the first to fail"}, value="", label="governing criterion and time, by",

@@ -119,7 +119,7 @@ def _those(ports: list[int]) -> str:
 
 
 class About(TypedDict, total=False):
-    """What a server tells of itself in its folder."""
+    """What a server states of itself in its folder."""
 
     address: str
     host: str

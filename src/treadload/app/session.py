@@ -30,7 +30,7 @@ FILES = {
     "climate.file": ("weather …", (".csv", ".epw")), "footprint.file": ("recorded stress …", FOOTPRINTS),
     "texture.file": ("texture …", (".csv", ".txt", ".dat", ".x3p", ".sdf", ".sur", ".al3d", ".npy", ".nc")),
 }  # fmt: skip
-"""How paths of keys end that name a file: what its button says, and what it takes."""
+"""How paths of keys end that name a file: the label of its button, and what it takes."""
 _STORES = (".zarr", ".zip")
 
 
@@ -109,8 +109,8 @@ class Session:
         suffix = os.path.splitext(shown)[1].lower()
         if suffixes == STUDIES and suffix in _STORES:
             raise InputError(
-                f"{shown} is a store of Zarr or an archive; what is in one says itself which code unpacks it, so no "
-                "page opens one; bring the study as one file: "
+                f"{shown} is a store of Zarr or an archive; its contents select the code that unpacks it, so "
+                "no page opens one; bring the study as one file: "
                 "tl.save_results(tl.sweeps.open_sweep('a.zarr'), 'a.nc')"
             )
         if suffix not in suffixes:

@@ -85,7 +85,7 @@ class StoredRuns:
         """The road of a run under its wheels. Raises InputError for a run without a case."""
         if stored.load is None:
             if stored.case is None or stored.case.command == "life":
-                raise InputError("this result holds no case of a wheel, so its road cannot be read anew")
+                raise InputError("this result holds no case of a wheel, so its road cannot be read again")
             # The case in a file has lost the folder that its tire stands in.
             case = Case.from_dict(stored.case.as_tables(), folder=self.folder)
             contact = stored.parts.get("contact")

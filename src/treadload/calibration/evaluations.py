@@ -132,7 +132,7 @@ def _read(path: Path, problem: Problem) -> dict[Task, Array]:
     except (OSError, ValueError, KeyError, TypeError, RecursionError) as error:
         raise InputError(
             f"the state {path} cannot be read as points of a calibration ({type(error).__name__}); remove it to "
-            "begin anew"
+            "start again"
         ) from error
     sizes = [sum(1 for reading in problem.readings if reading[0] == row) for row in range(len(problem.data))]
     fits = all(

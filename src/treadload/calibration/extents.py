@@ -55,7 +55,7 @@ def extents(pressure: Array, x: Array, y: Array, dx: float, dy: float) -> Extent
     along = np.array([[end, at] for at, ends in zip(y, rows, strict=True) for end in ends if np.isfinite(end)])
     across = np.array([[at, end] for at, ends in zip(x, columns, strict=True) for end in ends if np.isfinite(end)])
     if not len(along):
-        raise InputError("nothing presses on the road, so that no area can be told; raise the load")
+        raise InputError("nothing presses on the road, so that no area is determined; raise the load")
     # The outline runs through the ends of the rows and of the columns.
     try:
         gross = float(scipy.spatial.ConvexHull(np.concatenate([along, across])).volume)

@@ -215,7 +215,7 @@ def _check(problem: Problem) -> None:
     if count < sought:
         names = ", ".join(unknown.name for unknown in problem.sought)
         raise InputError(
-            f"{count} readings cannot tell {sought} numbers ({names}); measure more, or seek at most {count}"
+            f"{count} readings cannot determine {sought} numbers ({names}); measure more, or seek at most {count}"
         )
     rolled = any(READINGS[name].how in ("rolling", "pins") for row in problem.data for name in row.readings)
     if any(unknown.name == FRICTION for unknown in problem.sought) and not rolled:

@@ -146,7 +146,7 @@ class Calibration(BaseResult, group="calibration"):
             rows += [
                 row(key, number, group=name, display=_display(key, factor, unit)) for key, number in numbers.items()
             ]
-            bars = error if math.isfinite(error) else "not told"
+            bars = error if math.isfinite(error) else "not determined"
             display = _display("standard_deviation", factor, unit, ".2g")
             rows.insert(-3, row("standard_deviation", bars, group=name, note=part, display=display))
         free = int(data.attrs["degrees_of_freedom"])
@@ -264,7 +264,7 @@ def _doubts(
             caveats.append(
                 f"{unknown.name} ended at its bound of {factor * value:.4g} {unit}: the data want it "
                 f"{'lower' if side < 0 else 'higher'} still; it has no error bar, and those of the others hold it "
-                "there. Widen the bound if a tire can have that, or doubt the data or the model"
+                "there. Widen the bound if a tire can have that, or question the data or the model"
             )
         if problem.spacing is not None and unknown.name in _LENGTHS_OF_CELLS and value < 2 * problem.spacing:
             caveats.append(
@@ -275,7 +275,7 @@ def _doubts(
         caveats.append("as many numbers as readings: nothing checks the fit; measure more")
     elif errors_stated and scipy.special.chdtrc(left, square) < _CHANCE:
         caveats.append(
-            f"the readings scatter about the fit {math.sqrt(square / left):.2g} times as much as their errors say: "
+            f"the readings scatter about the fit {math.sqrt(square / left):.2g} times as much as their errors allow: "
             "they contradict each other or the model, and the error bars are too narrow by as much"
         )
     if not errors_stated and search_result.stated.any():

@@ -20,7 +20,7 @@ Footprint = Annotated[
     Path, typer.Argument(help="Tekscan ASCII, a table x, y, pressure, a matrix, NetCDF, or a picture.")
 ]
 Units = Annotated[str | None, typer.Option(help="Unit of pressure where the file names none: kPa, kgf/cm2, psi.")]
-Spacing = Annotated[str | None, typer.Option(help='Spacing of the cells where the file tells none, "5 mm".')]
+Spacing = Annotated[str | None, typer.Option(help='Spacing of the cells where the file has none, "5 mm".')]
 Frame = Annotated[str, typer.Option(help="Of several frames: peak, mean, or a number.")]
 Travel = Annotated[str, typer.Option(help="Travel on the page of the file: right, left, up or down.")]
 SeenFrom = Annotated[str, typer.Option(help="Side of the sensor that the file shows: above or below.")]
@@ -105,7 +105,7 @@ def compare(
     agreement: Agreement,
     quiet: shell.Quiet = False,
 ) -> None:
-    """Lay a measured footprint onto a computed contact, and tell how they agree."""
+    """Compare a measured footprint with a computed contact."""
     shell.check_files(output, report)
     with stages(shell.err, quiet=quiet) as tell:
         comparison = compare_files(result, footprint, tell, recording, agreement)

@@ -31,7 +31,7 @@ def export(
         int | None, typer.Option(help="Write so many equivalent discs of the contact, as .csv.", show_default=False)
     ] = None,
 ) -> None:  # fmt: skip
-    """Write a result, or a part of it, for another program; the suffix says which."""
+    """Write a result, or a part of it, for another program; the file extension selects it."""
     from treadload.contact import Contact
     from treadload.errors import InputError
     from treadload.files import TABLE, check_suffix

@@ -21,7 +21,7 @@ def catalogue(
     ] = "",
     name: Annotated[str, typer.Argument(help="One of them, in full.", show_default=False)] = "",
 ) -> None:
-    """Structures, mixes, viscoelastic materials, tires and belts that a case can name, with sources and doubts."""
+    """Structures, mixes, viscoelastic materials, tires and belts that a case can name, with sources and caveats."""
     from treadload import catalogue as catalogues
     from treadload.errors import InputError, nearest
 

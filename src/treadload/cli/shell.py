@@ -59,7 +59,7 @@ Changes = Annotated[
     ),
 ]
 Kind = Annotated[str, typer.Argument(help="The command that runs the case: run, life or calibrate.")]
-DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and say what would be solved.")]
+DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and list what would be solved.")]
 
 
 def names() -> Column:

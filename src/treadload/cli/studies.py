@@ -13,7 +13,7 @@ from treadload.cli.progress import stages
 Store = Annotated[Path, typer.Argument(help="The store that `treadload sweep` wrote, *.zarr.")]
 
 app = typer.Typer(
-    help="What a study of many cases says: a summary, tables, a page with its figures.", no_args_is_help=True
+    help="Summarise a parameter study: a summary, tables, a page with its figures.", no_args_is_help=True
 )
 
 

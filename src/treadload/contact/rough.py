@@ -320,7 +320,7 @@ def _doubts(texture: Texture, tread: TreadRubber, rows: Sequence[Mapping[str, fl
         caveats.append(
             f"the texture has an rms slope of {texture.rms_slope:.3g}, and slopes are taken as small (below "
             f"{_STEEP:g}): area and peak pressure are those of linear theory; take short waves out "
-            "(band_pass) and say which"
+            "(band_pass) and state which"
         )
     waves = texture.length / texture.mean_wave
     if waves < _FEWEST_WAVES:

@@ -258,7 +258,7 @@ def _contact(
             warnings.append(
                 f"the road gives {100 * alone.share:.3g} % of the compliance of this contact as a half-space of its "
                 f"top layer, and what its layers change of that is not known: layer {_grained(road)[0]!r} has a "
-                "horizontal grain; a TransverselyIsotropic or an Elastic in its place tells"
+                "horizontal grain; a TransverselyIsotropic or an Elastic in its place shows"
             )
     return Contact(data, tire, road, rolling, stats, tuple(warnings + cautions.of_fields(data)))
 

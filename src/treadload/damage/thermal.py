@@ -53,7 +53,7 @@ class Thermal:
                 )
             if not isinstance(published[self.relaxation].material, Thermorheological):
                 raise InputError(
-                    f"the viscoelastic material {self.relaxation!r} has no shift, so that it does not say how it "
+                    f"the viscoelastic material {self.relaxation!r} has no shift, which leaves open how it "
                     "relaxes at other temperatures; take one with a shift"
                 )
 
@@ -65,7 +65,7 @@ class Thermal:
         if isinstance(material, Thermorheological) or self.relaxation is not None:
             return ""
         if not isinstance(material, Mix):
-            return f"{material} does not say how it relaxes; {_REMEDY}"
+            return f"{material} does not define how it relaxes; {_REMEDY}"
         silent = silent_on_time(material)
         return f"{silent}; {_REMEDY}" if silent else ""
 

@@ -28,7 +28,7 @@ from treadload.rows import Row, row
 from treadload.units import PSI, quantity
 
 MAPS = ("computed", "seen", "measured")
-"""A contact on its own cells; as the sensor would tell it; what the sensor told."""
+"""A contact on its own cells; as the sensor would record it; what the sensor recorded."""
 
 # Loads that differ by more are reported: what mats of sensors repeat a load to, after calibration.
 _LOAD_TOLD = 0.05

@@ -219,11 +219,11 @@ class Measured:
         recorded = _recorded("footprint", self.footprint, folder)
         carried = recorded.normal_load
         if not carried > 0:
-            raise InputError("a footprint of the data carries no load, so that it says nothing")
+            raise InputError("a footprint of the data carries no load, so that there is nothing to compare")
         load = self.load if self.load is not None else carried
         if abs(carried / load - 1) > _SAME_LOAD:
             raise InputError(
-                f"a footprint of the data carries {carried / 1e3:.4g} kN and its row says {load / 1e3:.4g} kN, "
+                f"a footprint of the data carries {carried / 1e3:.4g} kN and its row gives {load / 1e3:.4g} kN, "
                 f"{100 * (carried / load - 1):+.3g} %, and at most {100 * _SAME_LOAD:g} % will do; give the "
                 "load that it was taken under, or its unit"
             )

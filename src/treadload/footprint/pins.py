@@ -215,9 +215,7 @@ def _columns(table: Table, units: dict[str, str], face: tuple[float, float]) -> 
             raise InputError(f"{path}, line {line}: the column {name} occurs twice; keep one")
         wanted = units.get(name, units.get("pressure") if name in _STRESSES else None)
         if unit is not None and wanted is not None and unit != wanted:
-            raise InputError(
-                f"{path}, line {line}: {name} is in [{unit}] and units= says {wanted!r}; leave units= out"
-            )
+            raise InputError(f"{path}, line {line}: {name} is in [{unit}] and units= is {wanted!r}; leave units= out")
         if not (unit or wanted):
             example = "kPa" if name in _STRESSES else "mm" if name != "time" else "s"
             raise InputError(
@@ -270,7 +268,7 @@ def _fields(
         order[cell] = row
     whole = np.all([np.isfinite(read_of[name]) for name in _STRESSES], axis=0)
     if not whole.any():
-        raise InputError(f"{path}: no reading has all three components; a missing one is empty or says NaN")
+        raise InputError(f"{path}: no reading has all three components; a missing one is empty or NaN")
     fields = {}
     for name in _STRESSES:
         fields[name] = np.full(shape, np.nan)

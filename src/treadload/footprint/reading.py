@@ -229,7 +229,7 @@ def _with_units(
         worth = pressure_factor(unit)
         if frames.law is not None and not (frames.calibrated and math.isclose(frames.law[0], worth)):
             meaning = f"in a unit of {frames.law[0]:g} Pa" if frames.calibrated else "counts with a calibration"
-            raise InputError(f"{path} says that its values are {meaning}, and units= {unit!r}; leave units= out")
+            raise InputError(f"{path} states that its values are {meaning}, and units= {unit!r}; leave units= out")
         return replace(frames, law=(worth, 1.0))
     if frames.law is None and not scaled:
         raise InputError(
@@ -310,7 +310,7 @@ def _checked(path: Path, pressure: Array, least: float, most: float) -> Array:
         row, column = (int(k) + 1 for k in np.unravel_index(int(pressure.argmin()), pressure.shape))
         raise InputError(
             f"{path}: row {row}, column {column} has a pressure of {low:g} Pa; compression counts positive, and "
-            "threshold= says how far around zero a sensor strays"
+            "threshold= gives how far around zero a sensor strays"
         )
     pressure = np.where((pressure < least) | (pressure <= 0), 0.0, pressure)
     loaded = int((pressure > 0).sum())

@@ -75,8 +75,8 @@ class SlipSolver:
         if abs(pull) > _STRAIGHT:
             raise InputError(
                 f"under {load:g} N the tire rolls freely at a slip angle of {math.degrees(pull):.2g}°, more than "
-                f"{math.degrees(_STRAIGHT):.2g}°: curves to one side do not tell the other; fit its profile, or a "
-                "tread without a hand"
+                f"{math.degrees(_STRAIGHT):.2g}°: curves to one side do not determine the other; fit its profile, or "
+                "a tread without a hand"
             )
         return contact
 

@@ -175,7 +175,7 @@ def _values(path: Path, frame: _Frame, header: _Header) -> Array:
         )
     if wanted[0] is not None and len(frame.rows) != wanted[0]:
         raise InputError(
-            f"{path}, line {frame.line}: frame {frame.number} has {len(frame.rows)} rows, the header says ROWS "
+            f"{path}, line {frame.line}: frame {frame.number} has {len(frame.rows)} rows, the header has ROWS "
             f"{wanted[0]}; the file is cut or was edited: export it again"
         )
     separator = next((mark for mark in (";", "\t") if mark in frame.rows[0]), ",")
@@ -183,7 +183,7 @@ def _values(path: Path, frame: _Frame, header: _Header) -> Array:
     columns = len(rows[0]) if wanted[1] is None else wanted[1]
     for line, row in zip(frame.lines, rows, strict=True):
         if len(row) != columns:
-            says = "the first row" if wanted[1] is None else "the header says COLS"
+            says = "the first row" if wanted[1] is None else "the header has COLS"
             raise InputError(
                 f"{path}, line {line}: {len(row)} values, {says} {columns}; the file is cut or was edited: export it "
                 "again"
@@ -220,7 +220,7 @@ def _assembled(path: Path, header: _Header, frames: Sequence[_Frame], values: Ar
     try:
         law = (pressure_factor(unit), 1.0) if unit is not None and not counts else None
     except InputError as error:
-        raise header.fault("UNITS", f"says {error}; correct the header") from error
+        raise header.fault("UNITS", f"is wrong: {error}; correct the header") from error
     if counts:
         law, saturation = _law(header), float(_FULL)
         for frame, map_ in zip(frames, values, strict=True):
@@ -232,7 +232,7 @@ def _assembled(path: Path, header: _Header, frames: Sequence[_Frame], values: Ar
                 )
             if frame.raw_sum is not None and abs(total - frame.raw_sum) > _SUM_DIGITS * max(total, frame.raw_sum):
                 raise InputError(
-                    f"{path}, line {frame.line}: frame {frame.number} sums up to {total:g} and says Raw Sum="
+                    f"{path}, line {frame.line}: frame {frame.number} sums up to {total:g} and has Raw Sum="
                     f"{frame.raw_sum:g}; the file was edited: export it again"
                 )
     elif law is not None:
@@ -243,11 +243,11 @@ def _assembled(path: Path, header: _Header, frames: Sequence[_Frame], values: Ar
         own_law = _law(header)
         threshold = None if own_law is None or law is None else own_law[0] * threshold ** own_law[1] / law[0]
     if counts and law is None:
-        warnings.append("its values are raw counts without a calibration that the header tells")
+        warnings.append("its values are raw counts without a calibration in the header")
     notes = [f"{path.name}: Tekscan ASCII", *([f"sensor {kind}"] if (kind := header.text("SENSOR_TYPE")) else [])]
     notes.append(f"values in {unit}" if unit is not None else "values without a unit")
     if law is not None and counts:
-        notes.append(f"pressure = {law[0]:g} Pa x raw^{law[1]:g}, as its header says")
+        notes.append(f"pressure = {law[0]:g} Pa x raw^{law[1]:g}, as its header states")
     turned = [key for key in ("MIRROR_ROW", "MIRROR_COL") if header.text(key) not in (None, "0")]
     if turned:
         notes.append(f"exported with {' and '.join(turned)}")
@@ -315,7 +315,7 @@ def _saturation(header: _Header, factor: float, values: Array) -> float | None:
     if top > full * (1 + _DIGITS):
         raise header.fault(
             "SATURATION_PRESSURE",
-            f"is {text}, and the data hold {top / full:.3g} times as much; UNITS says {header.text('UNITS')}: one of "
+            f"is {text}, and the data hold {top / full:.3g} times as much; UNITS is {header.text('UNITS')}: one of "
             "them is wrong",
         )
     return full if full > 0 else None

@@ -49,9 +49,9 @@ def read(
             strict=not bare,
         )
     except InputError as error:
-        if "noise= says" not in str(error):
+        if "noise= gives" not in str(error):
             raise
-        raise InputError(str(error).replace("noise= says", "threshold= says")) from error
+        raise InputError(str(error).replace("noise= gives", "threshold= gives")) from error
     grid, source = recorded.grid, recorded.source
     if units and "pressure" in units:
         source = source.replace(units_by_name["pressure"], units["pressure"])

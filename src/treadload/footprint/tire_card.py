@@ -1,4 +1,4 @@
-"""What a tire tells of itself: deflection, footprint and stiffnesses over loads and inflation pressures."""
+"""What a tire states of itself: deflection, footprint and stiffnesses over loads and inflation pressures."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ _OVER_LOAD = ("longitudinal_stiffness", "cornering_stiffness")
 
 @dataclass(frozen=True, eq=False)
 class TireCard(BaseResult, group="tire_card"):
-    """What a tire tells of itself.
+    """What a tire states of itself.
 
     dataset: over (inflation_pressure, wheel_load), and rib shares over rib as well; see `treadload.variables`. The
     attributes `tydex` and `iso_8855` of a variable are its names there. warnings: of all contacts.

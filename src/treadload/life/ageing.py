@@ -50,7 +50,7 @@ def longer_by_ageing(
     for name in mixes:
         old, new = life.years(name), young.years(name)
         if old > _LONGER * new:
-            years = f"{old:.3g} years" if math.isfinite(old) else "no end"
+            years = f"{old:.3g} years" if math.isfinite(old) else "no limit"
             sentences.append(
                 f"{name}: the aged mix has a service life of {years}, the young mix {new:.3g} years: ageing stiffens "
                 "the mix, and its fatigue line is still that of the young mix; design with the shorter life, or give "

@@ -139,7 +139,7 @@ def _trace(life: Life, number: int, growth: CrackGrowth) -> float:
     angle = math.nan if first is None else float(first[number])
     if math.isnan(angle):
         raise InputError(
-            f"the criterion {growth.criterion!r} does not tell which way its crack runs; give the trace, "
+            f"the criterion {growth.criterion!r} does not determine which way its crack runs; give the trace, "
             '"longitudinal" or "transverse"'
         )
     return angle

@@ -184,7 +184,7 @@ def _of_the_rut(life: Life) -> list[str]:
     return [
         f"{cause}: by its curve its years change by {-slope:+.2g} % as the passes grow by 1 % and by "
         f"{slope / power:+.2g} % as its limit does; loads, thicknesses, moduli and temperature are not changed for "
-        f"it, and what is told above is the life by {life.governing_criterion}"
+        f"it, and what is stated above is the life by {life.governing_criterion}"
     ]
 
 

@@ -88,7 +88,7 @@ def daily_cycles(
 def day_tension(road: Pavement, climate: Climate) -> Array:
     """Largest tension of the mean day of each month (month, depth), Pa, at the depths of the climate's days.
 
-    NaN in what is no mix, and in a mix that does not say how it relaxes; at an interface that of the layer above. Of
+    NaN in what is no mix, and in a mix of unknown relaxation; at an interface that of the layer above. Of
     a climate that asks for daily thermal stress.
     """
     thermal, days = climate.thermal, climate.days

@@ -217,8 +217,8 @@ def _warned(design: Design, risk: float | None) -> tuple[str, ...]:
     without = [criterion for criterion in design.criteria if not has_risk(criterion.law_at(15.0))]
     if len(without) == len(design.criteria):
         raise InputError(
-            f"no law of this design has a risk of its own, so that {100 * risk:g} % says nothing; give the design a "
-            "scatter, in a case [reliability], by which the years at that risk are found"
+            f"no law of this design has a risk of its own, so that {100 * risk:g} % has no meaning; give the design "
+            "a scatter, in a case [reliability], by which the years at that risk are found"
         )
     return tuple(
         f"{criterion.name}: its law, {criterion.law_at(15.0)}, has no risk, and counts as it is; [reliability] "

@@ -36,7 +36,7 @@ def silent_on_time(mix: Mix) -> str:
     """Why the table of a mix says nothing of time, in words; empty where `relaxation_of` finds how it relaxes."""
     if len(mix.frequencies) > 1:
         return ""
-    return f"mix {mix.name!r} is tabulated at {mix.frequencies[0]:g} Hz only, which does not say how it relaxes"
+    return f"mix {mix.name!r} is tabulated at {mix.frequencies[0]:g} Hz only, which does not define how it relaxes"
 
 
 @lru_cache(maxsize=64)

@@ -164,7 +164,7 @@ def checked_shape(rows: int, columns: int, name: str) -> tuple[int, int]:
     """Numbers of points that a map can have. Raises InputError."""
     if rows < 1 or columns < 2 or rows * columns > MOST_POINTS:
         raise InputError(
-            f"{name!r} tells of {rows} x {columns} points; a surface has two columns or more, and {MOST_POINTS} "
+            f"{name!r} states {rows} x {columns} points; a surface has two columns or more, and {MOST_POINTS} "
             "points at most: thin it or cut a piece of it"
         )
     return rows, columns
@@ -206,7 +206,7 @@ def _member(
         raise InputError(f"{name!r} names {one_line(repr(path))} for data, and has no such member; export it again")
     if members[path].file_size != size:
         raise InputError(
-            f"{path!r} in {name!r} has {members[path].file_size} bytes, and its header tells of {size}; it is "
+            f"{path!r} in {name!r} has {members[path].file_size} bytes, and its header states {size}; it is "
             "truncated or damaged, export or copy it again"
         )
     with archive.open(members[path]) as stream:
@@ -215,7 +215,7 @@ def _member(
             parts.append(part)
             left -= len(part)
         if left or stream.read(1):
-            raise InputError(f"{path!r} in {name!r} is not as long as its archive says; export or copy it again")
+            raise InputError(f"{path!r} in {name!r} is not as long as its archive states; export or copy it again")
     data, wanted = b"".join(parts), fields.get(f"{_LINK}/{checksum}", "")
     if wanted and hashlib.md5(data, usedforsecurity=False).hexdigest() != wanted.casefold():
         raise InputError(

@@ -100,13 +100,13 @@ def _text_sdf(content: bytes, name: str) -> Map:
         )
     counts = [fields[key] for key in ("NumProfiles", "NumPoints")]
     if not all(re.fullmatch("[0-9]{1,9}", count) for count in counts):
-        raise InputError(f"{name!r} tells of {one_line(' x '.join(counts))} points; both must be whole numbers")
+        raise InputError(f"{name!r} states {one_line(' x '.join(counts))} points; both must be whole numbers")
     rows, columns = checked_shape(int(counts[0]), int(counts[1]), name)
     body = content[sum(len(line) + 1 for line in lines[: end + 1]) :]
     words = body.partition(b"*")[0].split()
     if len(words) != rows * columns:
         raise InputError(
-            f"{name!r} tells of {rows} x {columns} points and has {len(words)} heights; it is truncated or damaged, "
+            f"{name!r} states {rows} x {columns} points and has {len(words)} heights; it is truncated or damaged, "
             "export or copy it again"
         )
     wrong = next((word for word in words if word != b"BAD" and not _NUMBER.fullmatch(word)), None)
@@ -152,7 +152,7 @@ def read_sur(content: bytes, name: str) -> Map:
         raise InputError(f"{name!r} has heights of {bits} bits; 16 and 32 are known")
     rows, columns = checked_shape(rows, columns, name)
     if points != rows * columns:
-        raise InputError(f"{name!r} tells of {points} points in {rows} x {columns}; export or copy it again")
+        raise InputError(f"{name!r} states {points} points in {rows} x {columns}; export or copy it again")
     comment, private = struct.unpack_from("<2H", content, 334)
     start = _SUR_LENGTH + comment + private
     _check_length(content, start, points * bits // 8, name, "its heights")
@@ -199,7 +199,7 @@ def read_al3d(content: bytes, name: str) -> Map:
         raise InputError(f"{name!r} lacks the tag {missing[0]}; export a depth map again")
     numbers = [tags[key] for key in needed[:3]]
     if not all(re.fullmatch("[0-9]{1,10}", number) for number in numbers):
-        raise InputError(f"{name!r} tells of Rows, Cols, offset {one_line(', '.join(numbers))}; all must be whole")
+        raise InputError(f"{name!r} states Rows, Cols, offset {one_line(', '.join(numbers))}; all must be whole")
     dx, dy = (_float(tags[key]) for key in needed[3:5])
     _check_scales(name, **dict(zip(needed[3:5], (dx, dy), strict=True)))
     mark = tags["InvalidPixelValue"]

@@ -80,8 +80,8 @@ class Weather:
                 )
         if self.radiation is None and self.surface_temperature is None:
             raise InputError(
-                "the climate has neither radiation nor surface_temperature: without one of them nothing says how "
-                "much warmer than the air the road is; add the column, W/m² or °C"
+                "the climate has neither radiation nor surface_temperature: without one of them nothing determines "
+                "how much warmer than the air the road is; add the column, W/m² or °C"
             )
 
     @classmethod

@@ -123,7 +123,9 @@ def calibration_numbers(calibration: Source) -> Figure:
     )
     left.plot(100 * before, places, ls="", marker="|", ms=11, mew=1.6, color=MUTED, label="before")
     for place in places[~finite]:
-        left.annotate("not told by these data", (0, place), xytext=(8, 6), textcoords="offset points", color=CASES[1])
+        left.annotate(
+            "not determined by these data", (0, place), xytext=(8, 6), textcoords="offset points", color=CASES[1]
+        )
     left.set_yticks(places, names)
     left.set_ylim(count - 0.5, -0.5)
     left.set_xlabel("from the fitted number (%)")

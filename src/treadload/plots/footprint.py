@@ -237,7 +237,7 @@ def _of_map(data: xr.Dataset, name: str, which: str) -> Array:
     row = fields_of(data, name)[name]
     names = [str(name) for name in row["map"].to_numpy()] if "map" in row.coords else []
     if which not in names:
-        raise InputError(f"{name} is not told of the map {which!r}, only of {', '.join(names) or 'none'}")
+        raise InputError(f"{name} is not stated of the map {which!r}, only of {', '.join(names) or 'none'}")
     return np.asarray(row.isel(map=names.index(which)).to_numpy(), dtype=float)
 
 

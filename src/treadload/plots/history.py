@@ -98,5 +98,6 @@ def _panels(label: str) -> tuple[Axes, Axes]:
         ax.axhline(0, color=MUTED, lw=0.7)
         ax.set_xlabel(label)
     right.set_ylabel("share of the contact that slips (%)")
-    right.set_ylim(0, None)
+    # Limits that are set before lines are drawn stay as they are.
+    right.set_ylim(0, 102)
     return left, right

@@ -34,8 +34,8 @@ _MOST_TIMES = 100.0
 @figure(
     "Remedies", name="tornado", main=True, title="What would help", wide=True,
     caption="Years of the road, and by every criterion, after each change by one step; bars begin at the years of "
-    "the road as it is. Each was solved anew. A criterion that lasts more than 1000 years is drawn by how many times "
-    "as long it lasts.",
+    "the road as it is. Each was solved again. A criterion that lasts more than 1000 years is drawn by how many "
+    "times as long it lasts.",
 )  # fmt: skip
 @styled
 def remedy_tornado(remedies: Source) -> Figure:

@@ -60,7 +60,7 @@ def compare_roads(
     sections = [Section.of(response, along, at) for response in responses]
     first = sections[0]
     if any(section.name != first.name for section in sections):
-        raise InputError("the roads' sections must all lie along travel or all across it; say along=...")
+        raise InputError("the roads' sections must all lie along travel or all across it; give along=...")
     component = _component(strain or ("xx" if first.name == "x" else "yy"))
     position = place if place is not None else _under_load(responses[0], first.data, first.name)
     scale = limits(*(section.values for section in sections))

@@ -41,7 +41,7 @@ _SHOWN = 99.5
 @figure(
     "Heterogeneous", name="section", main=True, title="Stones in mortar", wide=True,
     caption="Largest tension in a section with stones, which are outlined, and of the mortar alone; right: the share "
-    "of the mastic, and of the stones' faces, that bears more.",
+    "of the mastic, and of the stones' faces, that carries more.",
 )  # fmt: skip
 @styled
 def stones_in_mortar(

@@ -22,11 +22,11 @@ from treadload.results.schema import read_json
 from treadload.rows import Row, from_json, row, table_of
 from treadload.variables import Display, display_of
 
-_RESPONSE = ("quantity", "by whom", display_of("largest_reading").label, "where", display_of("first_crack").label,
+_RESPONSE = ("quantity", "author", display_of("largest_reading").label, "where", display_of("first_crack").label,
              "calibrated")  # fmt: skip
 _AT = {"read_depth": "depth", "worst_y": "y ="}
 _PLACES = {"top": "top of a layer", "bottom": "bottom of a layer", "interface": "bond between layers"}
-CRACKS, FAILS = "Where would it crack first, by whom", "Where would it fail first, by whom"
+CRACKS, FAILS = "Predicted cracking by criterion", "Predicted failure by criterion"
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def first_of_life(data: xr.Dataset, rows: Sequence[Row] = ()) -> FirstPage | Non
         "of the middle of the wheel path. A plane nearer to the horizontal than 45° is no crack from the surface "
         "down, and none opens where no principal stress is tensile."
     )
-    return FirstPage(CRACKS if cracks else FAILS, sentence, ("criterion", "by whom", *columns[1:]), lines, note)
+    return FirstPage(CRACKS if cracks else FAILS, sentence, ("criterion", "author", *columns[1:]), lines, note)
 
 
 def _texts(data: xr.Dataset, name: str, count: int) -> list[str]:

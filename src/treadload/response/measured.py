@@ -213,7 +213,7 @@ def _checked(table: Table, first: int, name: str, values: Array, missing: str, f
         if len(below):
             raise InputError(
                 f"{table.path}, line {table.lines[first + int(below[0][0])]}: pressure is negative, "
-                f"{values[tuple(below[0])]:g} Pa; compression counts positive, and noise= says how far below zero a "
+                f"{values[tuple(below[0])]:g} Pa; compression counts positive, and noise= gives how far below zero a "
                 "sensor may read"
             )
     return values

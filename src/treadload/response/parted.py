@@ -156,7 +156,7 @@ def solve_face(loads: tuple[SurfaceLoad, ...], road: Pavement) -> Face:
         shear, bound = np.linalg.norm(traction[:2].sum(axis=(1, 2))), bond.friction * float(traction[2].sum())
         if shear > _BORNE * bound and bound > 0:
             raise InputError(
-                f"the load's shear force is {shear / bound:.3g} times what friction of {bond.friction:g} bears on "
+                f"the load's shear force is {shear / bound:.3g} times what friction of {bond.friction:g} carries on "
                 f"the face at {depth:g} m: the layers above slide off as a whole; take more friction, or a "
                 "FRICTIONLESS face"
             )

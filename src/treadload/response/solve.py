@@ -165,7 +165,7 @@ def _drift(displacement: Array, depths: Array, loads: Sequence[object]) -> tuple
     return (
         f"a net shear force of {net} acts above a frictionless or half-bonded interface, where nothing holds the "
         f"layers: their displacement along it grows without bound and is NaN at {rows} mm; settlement, stress and "
-        "strain are finite; for a finite one take a bond that bears shear, Bond(stiffness=...) or Parted(friction)",
+        "strain are finite; for a finite one take a bond that carries shear, Bond(stiffness=...) or Parted(friction)",
     )
 
 

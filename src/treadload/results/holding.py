@@ -36,7 +36,7 @@ def result_of(kind: type[BaseResult], values: Mapping[str, Any], where: str) -> 
                 "compared with; annotate it with a class, or with Any"
             ) from error
         if not fits:
-            raise InputError(f"{where}: the {name} of a {kind.__name__} cannot be {short(value)}; compute it anew")
+            raise InputError(f"{where}: the {name} of a {kind.__name__} cannot be {short(value)}; compute it again")
     dataset = values.get("dataset")
     if isinstance(dataset, xr.Dataset):
         check_dataset(kind, dataset, where, values)
@@ -128,7 +128,7 @@ def _check_attributes(data: xr.Dataset, holds: Holds, where: str) -> None:
         needed += together if together[0] in attrs else []
     for name in needed:
         if name not in attrs:
-            raise InputError(f"{where} lacks the attribute {name!r}; compute it anew")
+            raise InputError(f"{where} lacks the attribute {name!r}; compute it again")
     for name in holds.texts.split():
         if not isinstance(attrs[name], str):
             raise InputError(f"{where}: the attribute {name} must be text, got {short(attrs[name])}")
@@ -142,7 +142,7 @@ def _check_attributes(data: xr.Dataset, holds: Holds, where: str) -> None:
 
 def _there(data: xr.Dataset, name: str, where: str) -> xr.DataArray:
     if name not in data.variables:
-        raise InputError(f"{where} lacks {name!r}; compute it anew, or take the part out")
+        raise InputError(f"{where} lacks {name!r}; compute it again, or take the part out")
     return data[name]
 
 

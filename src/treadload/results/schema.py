@@ -114,7 +114,7 @@ def _check_coordinate(data: xr.Dataset, name: str, where: str) -> None:
     if not data.sizes[name]:
         raise InputError(f"{where} is empty: it has no {name}")
     if name not in data.coords:
-        raise InputError(f"{where} has {data.sizes[name]} rows along {name} and does not say where they lie")
+        raise InputError(f"{where} has {data.sizes[name]} rows along {name} and does not state where they lie")
     _check_field(data[name], [name], Holds(finite=name), f"{where}: {name}")
     steps = np.diff(data[name].to_numpy())
     if (steps < 0).any() or (name != "depth" and (steps == 0).any()):
@@ -129,7 +129,7 @@ def _check_depths(depths: Array, where: str) -> None:
     often = depths[2:][depths[2:] == depths[:-2]]
     if often.size:
         raise InputError(
-            f"{where}: depth {often[0]:g} m is there more than twice, and an interface has two sides; compute it anew"
+            f"{where}: depth {often[0]:g} m is there more than twice, and an interface has two sides; solve again"
         )
 
 

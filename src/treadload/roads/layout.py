@@ -210,6 +210,6 @@ def _offsets(
     missing = next((place for place, offset in zip(deflections, named, strict=True) if offset is None), None)
     if missing is not None:
         raise InputError(
-            f"{path}: {columns.headings[missing]!r} does not tell its offset, as D300 does; give offsets in a layout"
+            f"{path}: {columns.headings[missing]!r} does not give its offset, as D300 does; give offsets in a layout"
         )
     return [offset for offset in named if offset is not None]

@@ -62,7 +62,7 @@ class FootprintStep(Source, name="footprint"):
     def _of_a_table(self) -> FootprintStep:
         stray = sorted(self.model_fields_set - {"file", "units", "interpolation"}) if self.is_result else []
         if stray:
-            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and tells it itself")
+            raise ValueError(f"{stray[0]} belongs to a CSV file; {self.file} is NetCDF and contains it")
         return self
 
     @classmethod

@@ -226,7 +226,7 @@ def _remedy(code: int | None, jobs: int) -> str:
             f", perhaps for lack of memory; use fewer processes than {jobs}, or a machine with more memory; jobs=1 "
             "needs no other process"
         )
-    return "; what it printed before says why, and jobs=1 solves the cases without other processes"
+    return "; what it printed before states why, and jobs=1 solves the cases without other processes"
 
 
 def _serve(pipe: Connection, question: Question) -> None:

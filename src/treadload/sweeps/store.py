@@ -238,7 +238,7 @@ def begun(path: str | os.PathLike[str], case: Case, design: Design, question: Qu
         mark = read_mark(path)
         # A damaged description is written anew if the mark is that of this study.
         if mark is not None and mark.study == name and not is_whole(path):
-            store.repaired = f"the description of the study, {path / STUDY}, was damaged and is written anew"
+            store.repaired = f"the description of the study, {path / STUDY}, was damaged and is written again"
             with store.writing():
                 write_description(path, case, design, question, name)
         elif (path / STUDY).exists():

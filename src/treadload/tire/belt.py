@@ -108,7 +108,7 @@ class Belt:
             )
         if self.meridional == 0 and self.bending[2] == 0:
             raise InputError(
-                "belt: neither tension nor bending across; its rows would not feel each other. Give meridional, "
+                "belt: neither tension nor bending across; its rows would not be coupled. Give meridional, "
                 "about 0.1 m for a truck tire, or bending across"
             )
         for name in ("crown_radius", "belt_radius"):

@@ -232,7 +232,7 @@ def read_height_map(
             f"use .nc, .csv, .txt, .dat, .tsv, .npy, .npz or a surface as {', '.join(ENDINGS)}"
         )
     elif spacing is None:
-        raise InputError(f"{path.name!r} does not say the size of its cells; give spacing in m, e.g. spacing=3e-3")
+        raise InputError(f"{path.name!r} does not state the size of its cells; give spacing in m, e.g. spacing=3e-3")
     else:
         gap, how = _read_matrix(path, suffix, decimal)
         source = f"{path.name}{how}, gap in {units_of.get('gap', 'm')}"

@@ -150,7 +150,7 @@ class TirText:
         if angle is None or angle.casefold() not in _RADIANS:
             raise InputError(
                 f"{self.where}: the unit of angles is {angle!r}; coefficients are per radian, and a file in degrees "
-                "does not say which of its numbers are angles: export the tire with ANGLE = 'radian'"
+                "does not state which of its numbers are angles: export the tire with ANGLE = 'radian'"
             )
         factors: dict[str, float] = {}
         for name, units in _UNITS.items():

@@ -53,7 +53,7 @@ def near_the_surface(
     tensions: Array | None = None,
     offset: tuple[float, float] = (0.0, 0.0),
 ) -> tuple[Array, float]:
-    """Mean strain of a soft sphere near the surface under uniform tensions, and the error that a result tells of it.
+    """Mean strain of a soft sphere near the surface under uniform tensions, and the error that a result states of it.
 
     contrast: of its modulus, 0 of a void. cells: a radius. cover: of its top over its radius. tensions: along x, y
     and down, over the modulus, (n, 3); left out, equal ones along x and y. offset: of its centre from a corner of

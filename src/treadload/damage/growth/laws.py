@@ -108,7 +108,7 @@ class FromStrength(GrowthLaw):
     doubt: str = f"4.389 and 2.52 are {_FROM_MEMORY}"
 
     def __post_init__(self) -> None:
-        positive("strength", self.strength, "Pa", "asphalt bears 1e6 to 6e6")
+        positive("strength", self.strength, "Pa", "asphalt has 1e6 to 6e6")
         _check(self.exponent, self.scatter)
 
     def at(self, modulus: float) -> ParisLaw:

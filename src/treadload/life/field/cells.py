@@ -22,7 +22,7 @@ THICKNESS_CLASSES = (0.0, 0.10, 0.18, math.inf)
 ENTRY_CLASSES = (0, 4, 7, 10, 14, 18, 60)
 """Ends of the classes of age at the first survey, years."""
 FEWEST = 10
-"""Sections of a class at least, for a share that says something."""
+"""Sections of a class at least, for a share that is significant."""
 BY_AGE, BY_THICKNESS = 2.5, 3.0
 """Standard errors by which shares of age classes, and of thickness classes, may differ from those predicted."""
 LEAST = 0.15

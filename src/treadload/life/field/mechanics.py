@@ -196,7 +196,7 @@ def predict_sections(
 
 
 def sections_of(table: SectionTable) -> tuple[RoadSection, ...]:
-    """What a table tells of its sections, for the mechanics. Raises InputError for a thickness or climate missing."""
+    """Sections of a table, for the mechanics. Raises InputError for a thickness or climate missing."""
     sections = []
     for k, name in enumerate(table.sections):
         for value, what in ((table.thickness[k], "asphalt thickness"), (table.mean_air[k], "mean air temperature")):

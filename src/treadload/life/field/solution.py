@@ -93,7 +93,7 @@ class FieldBench(BaseResult, group="field_bench"):
     """
 
     title: ClassVar[str] = "What roads show"
-    subject: ClassVar[str] = "What a table of road sections says of cracks and of mechanics"
+    subject: ClassVar[str] = "Cracks of road sections compared with the mechanics"
     holds: ClassVar[Holds] = Holds(
         {
             **dict.fromkeys([" ".join(f"crack_{name}" for name in _EACH)], "event likelihood"),
@@ -223,9 +223,9 @@ class FieldBench(BaseResult, group="field_bench"):
             text = ", ".join(f"{name}: {drop:.1f}" for name, drop in drops.items())
             apart = [name for name, drop in drops.items() if drop < -DROP]
             end = (
-                f"told apart: {', '.join(apart)}"
+                f"distinguished: {', '.join(apart)}"
                 if apart
-                else f"not told apart by these data (less than {DROP} nats)"
+                else f"not distinguished by these data (less than {DROP} nats)"
             )
             rows.append(row("variants", f"{text}; {end}"))
         rows += [row("about_mechanics", text) for text in json.loads(data.attrs["about"])]

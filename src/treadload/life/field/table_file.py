@@ -154,7 +154,7 @@ class _Columns:
         missing = [name for name in file.section if name not in self.heads]
         if missing:
             raise InputError(
-                f'{table.path} has no column {missing[0]!r}, which names a section; say which do: section = ["…"]'
+                f'{table.path} has no column {missing[0]!r}, which names a section; state which do: section = ["…"]'
             )
         places = [self.heads.index(name) for name in file.section]
         self.names = ["-".join(row[k] for k in places if k < len(row)) for row in table.rows[1:]]

@@ -112,7 +112,7 @@ def _asphalt(road: Pavement, number: int, names: Sequence[str], *, certain: bool
     if bituminous is None and certain:
         raise InputError(
             f"scatter of thickness: {names[number]!r} may be asphalt or bound by cement, so that the rule for Sh "
-            'does not say whether it counts; give thickness, such as "20 mm", or thicknesses by the names of layers'
+            'does not define whether it counts; give thickness, such as "20 mm", or thicknesses by names of layers'
         )
     return bituminous is not False
 

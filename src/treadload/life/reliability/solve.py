@@ -176,7 +176,7 @@ def _chosen(life: Life, criteria: Sequence[str] | None) -> tuple[list[int], tupl
             "no years scatter; give more passes, or a law in the place of a limit"
         )
     return steep, tuple(
-        f"{names[number]}: its law, {life.laws[number][0]}, is a step, so that no probability of its years is told"
+        f"{names[number]}: its law, {life.laws[number][0]}, is a step, so that its years have no probability"
         for number in ends
         if number not in steep
     )

@@ -18,7 +18,7 @@ from treadload.variables import Display, display_of
 
 # Remedies that a criterion's sentence lists, and the part of a life that is worth a mention.
 _LISTED, _WORTH = 3, 0.01
-HOW = ("summed anew from the same responses", "solved anew")
+HOW = ("summed again from the same responses", "solved again")
 """How a remedy's years came about, by its `solved_anew`; none is by derivative."""
 
 

@@ -161,7 +161,7 @@ def read_crg(path: Path) -> CurvedGrid:
     end = road.get("reference_line_end_u")
     if end is not None and abs(end - u[-1]) > 0.5 * step:
         raise InputError(
-            f"{path.name!r} says that it ends at u = {end:g} m, and its {len(data)} rows end at {u[-1]:g} m: rows "
+            f"{path.name!r} states that it ends at u = {end:g} m, and its {len(data)} rows end at {u[-1]:g} m: rows "
             "are missing or too many"
         )
     sections = [k for k, (name, _) in enumerate(channels) if name == "z"]
@@ -292,7 +292,9 @@ def _across(road: Mapping[str, float], places: list[float | None], name: str) ->
     elif left is not None and right is None and step is not None:
         right = left - (count - 1) * step
     if right is None or left is None or not left > right:
-        raise InputError(f"{name!r} says not where its long sections lie; it needs LONG_SECTION_V_RIGHT and _LEFT")
+        raise InputError(
+            f"{name!r} does not state where its long sections lie; it needs LONG_SECTION_V_RIGHT and _LEFT"
+        )
     if step is not None and abs(right + (count - 1) * step - left) > 0.5 * step:
         raise InputError(
             f"{name!r}: {count} long sections every {step:g} m do not reach from {right:g} to {left:g} m across"

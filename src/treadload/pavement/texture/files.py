@@ -110,7 +110,7 @@ def _matrix(
     path: Path, suffix: str, spacing: float | tuple[float, float] | None, units: str | None, decimal: str | None
 ) -> Texture:
     if spacing is None:
-        raise InputError(f"{path.name!r} does not say how far apart its points are; give spacing in m, e.g. 0.5e-3")
+        raise InputError(f"{path.name!r} does not state how far apart its points are; give spacing in m, e.g. 0.5e-3")
     if suffix == ".npy":
         try:
             with path.open("rb") as stream:

@@ -341,7 +341,7 @@ def _by(view: View, field: xr.DataArray, along: str, by: str | None) -> str:
     if by is not None:
         name = by if not by or by in field.dims else view.input(by)
         if name and (name not in field.dims or name == along):
-            raise InputError(f"lines cannot be told apart by {by}; take {_listed([str(d) for d in field.dims])}")
+            raise InputError(f"lines cannot be distinguished by {by}; take {_listed([str(d) for d in field.dims])}")
         return name
     if not view.is_product:
         return ""

@@ -95,7 +95,7 @@ def compute_heterogeneous(
         if isinstance(value, bool | str) or not math.isfinite(value):
             raise InputError(f"the window's middle must be finite numbers of metres, got {name} = {value!r}")
     if bond_strength is not None:
-        positive("bond_strength", bond_strength, "Pa", "bitumen on stone bears near 1e6")
+        positive("bond_strength", bond_strength, "Pa", "bitumen on stone has near 1e6")
     if borders not in get_args(Borders):
         raise InputError(f'borders must be "steps" or "shares", got {borders!r}')
     placed = gather(loads)
@@ -191,7 +191,7 @@ def _groups(stones: object) -> list[Aggregates]:
             f"stones must be Aggregates or a list of them, got {type(stones).__name__}; see its random()"
         )
     if any(group.scanned for group in groups) and len(groups) > 1:
-        raise InputError("a scan of stones says what every cell is: it cannot be put together with other stones")
+        raise InputError("a scan of stones determines every cell: it cannot be put together with other stones")
     return groups
 
 

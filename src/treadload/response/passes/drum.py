@@ -140,7 +140,7 @@ def roll_drum(
     question = problem_of(elastic, road, replace(followed, spacing=None), speed=speed, tell=progress)
     if any(isinstance(course.material.law, PassesPowerLaw) for course in question.courses):
         raise InputError(
-            "a PassesPowerLaw has no flow that the drum could feel: give VonMises, MohrCoulomb, DruckerPrager or "
+            "a PassesPowerLaw has no flow that could act on the drum: give VonMises, MohrCoulomb, DruckerPrager or "
             "Perzyna"
         )
     box = _box(question, drum, elastic, cell)

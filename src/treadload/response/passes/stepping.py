@@ -155,7 +155,7 @@ def too_far(box: Box) -> InputError:
     """What to raise where a box grew as often as it may."""
     return InputError(
         f"the plastic zone reaches the sides of a box of {box} and grew with it {GROWTHS} times: this load is far "
-        "above what the road bears; lower it, or give a stronger law"
+        "above what the road can carry; lower it, or give a stronger law"
     )
 
 

@@ -159,7 +159,7 @@ def _cut(field: xr.DataArray, study: Sweep, of: str, at: dict[str, object]) -> t
         numeric = axis.dtype.kind in "fiu"
         listed = ", ".join(f"{value:g}" if numeric else repr(str(value)) for value in axis[:12])
         if dim not in at and len(axis) > 1:
-            raise InputError(f"{of} is over {dim}: {listed}; say which, at={{{dim!r}: {axis[0]!s}}}")
+            raise InputError(f"{of} is over {dim}: {listed}; state which, at={{{dim!r}: {axis[0]!s}}}")
         wanted = at.pop(dim, axis[0])
         if numeric:
             place = float(cast("float | str", wanted))
@@ -193,7 +193,7 @@ def kept(answer: Answer, size: int, what: str) -> tuple[BoolArray, list[str]]:
     if lost > _MOST_LOST * count or count - lost < 2:
         raise InputError(
             f"{lost} of {count} {what} have a case that failed, more than {100 * _MOST_LOST:.0f} %: what is left "
-            f"says nothing of these ranges; narrow them so that cases can be solved. Most often: {reason}"
+            f"does not represent these ranges; narrow them so that cases can be solved. Most often: {reason}"
         )
     return whole, [
         f"{lost} of {count} {what} are left out because a case of theirs failed: the numbers hold for the part of "

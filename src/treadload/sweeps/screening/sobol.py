@@ -180,8 +180,8 @@ def _doubts(data: xr.Dataset, blocks: int) -> list[str]:
     warnings = []
     if blocks < _FEWEST:
         warnings.append(
-            f"{blocks} blocks are few: their intervals are themselves uncertain; take {_FEWEST} or more to tell "
-            "inputs apart"
+            f"{blocks} blocks are few: their intervals are themselves uncertain; take {_FEWEST} or more to "
+            "separate inputs"
         )
     for which, words in (("total_order", "total"), ("first_order", "first-order")):
         values, wide = data[which].to_numpy(), data[f"{which}_interval"].to_numpy()

@@ -41,8 +41,8 @@ def gamma_of(ratio: float, contrast: float = 1.0) -> float:
     low, high = RANGE
     if math.isnan(ratio):
         raise InputError(
-            "gamma cannot be told from three steps, or where no bright pixel kept all of its steps: give it as a "
-            "number, or take four steps or more"
+            "gamma cannot be determined from three steps, or where no bright pixel kept all of its steps: give it as "
+            "a number, or take four steps or more"
         )
     if not second_harmonic(low, contrast) < ratio < second_harmonic(high, contrast):
         raise InputError(

@@ -133,8 +133,8 @@ def _learn(pattern: Pattern, steps: Steps, use: BoolArray, evaluation: Evaluatio
     record.noise = evaluation.noise if evaluation.noise is not None else noise
     if math.isnan(record.noise):
         record.warnings.append(
-            "three steps leave nothing to tell the noise from, so no deviation of the heights is given; give noise "
-            "in grey levels, or take four steps or more"
+            "three steps leave nothing to determine the noise from, so no deviation of the heights is given; give "
+            "noise in grey levels, or take four steps or more"
         )
     certain = math.isfinite(ratio) and doubt < _DOUBT
     if certain:

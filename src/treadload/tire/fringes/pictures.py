@@ -51,7 +51,7 @@ def read_pictures(names: str | Sequence[str], folder: Path, what: str, steps: in
         stack = np.stack(pictures)
     if steps is not None and len(stack) != steps:
         raise InputError(
-            f"{what}: {len(stack)} pictures where steps = {steps} says so many; a step is missing or twice"
+            f"{what}: {len(stack)} pictures where steps = {steps} states so many; a step is missing or twice"
         )
     return stack
 

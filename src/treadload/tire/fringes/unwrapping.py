@@ -99,7 +99,7 @@ def _ladder(patterns: list[_Rung]) -> list[_Rung]:
         if not level:
             counts = ", ".join(f"{rung.fringes:g}" for rung in patterns)
             raise InputError(
-                f"patterns of {counts} fringes do not tell which fringe a pixel is on: add one of a single fringe, "
+                f"patterns of {counts} fringes leave the fringe of a pixel open: add one of a single fringe, "
                 "or choose counts whose differences come down to one, such as 64, 63 and 56"
             )
         rungs = sorted([*level, *rungs], key=lambda rung: rung.fringes)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 MOST_POINTS = 50_000_000
 FEWEST_POINTS = 1000
-# A LAZ file packs a point into 2 bytes or more; one that says it holds more than this many a byte lies.
+# A LAZ file packs a point into 2 bytes or more; one that declares more than this many a byte lies.
 _MOST_PER_BYTE = 20
 # A chunk of a LAZ file begins with one point as it is, 20 bytes or more.
 _SMALLEST_CHUNK, _MOST_CHUNKS = 20, 2**32
@@ -38,8 +38,8 @@ def _of_text(path: Path) -> Triangles:
         start = file.read(4096)
     if b"\0" in start:
         raise InputError(
-            f"scan file {path.name!r} is no text, though its ending {path.suffix} says so; give it "
-            "the ending of its format"
+            f"scan file {path.name!r} is not text, although its file extension is {path.suffix}; give it "
+            "the file extension of its format"
         )
     with path.open(encoding="utf-8", errors="replace") as file:
         lines = [line for line, _ in zip(file, range(_HEADER_LINES), strict=False)]
@@ -91,14 +91,14 @@ def _of_las(path: Path) -> Triangles:
         count = int(file.header.point_count)
         if not 0 < count <= min(MOST_POINTS, _MOST_PER_BYTE * path.stat().st_size):
             raise InputError(
-                f"scan file {path.name!r} says it holds {count} points in {path.stat().st_size} bytes, between 1 "
+                f"scan file {path.name!r} declares {count} points in {path.stat().st_size} bytes, between 1 "
                 f"and {MOST_POINTS} can be; it may be damaged, export or copy it again"
             )
         parts = [np.stack([part.x, part.y, part.z], axis=1) for part in file.chunk_iterator(1_000_000)]
         points = np.concatenate(parts) if parts else np.zeros((0, 3))
     if len(points) != count:
         raise InputError(
-            f"scan file {path.name!r} says it holds {count} points and has {len(points)}; it may be truncated, "
+            f"scan file {path.name!r} declares {count} points and has {len(points)}; it may be truncated, "
             "export or copy it again"
         )
     return _checked(np.asarray(points, dtype=np.float64), path)
@@ -155,7 +155,7 @@ def _check_chunks(file: BinaryIO, path: Path, offset: int, size: int) -> None:
         chunks = struct.unpack("<I", file.read(4))[0]
     if chunks > size // _SMALLEST_CHUNK:
         raise InputError(
-            f"{path.name!r} has no table of its packed points where it says, or one of {chunks} chunks in {size} "
+            f"{path.name!r} has no table of its packed points where it states, or one of {chunks} chunks in {size} "
             "bytes; it is truncated or damaged, export or copy it again"
         )
 

@@ -42,7 +42,7 @@ def scan_points(path: Path, most: int) -> Array:
         most = min(most, _MOST_PER_BYTE * path.stat().st_size)
         if min(counts, default=0) < 0 or not 0 < sum(counts) <= most:
             raise InputError(
-                f"scan file {path.name!r} says it holds {sum(counts)} points in {path.stat().st_size} bytes, between "
+                f"scan file {path.name!r} declares {sum(counts)} points in {path.stat().st_size} bytes, between "
                 f"1 and {most} can be; it may be damaged, or hold pictures only: export it again"
             )
         return np.concatenate([_points(file, header, k, path.name) for k, header in enumerate(headers)])
@@ -63,7 +63,7 @@ def _points(file: pye57.E57, header: pye57.ScanHeader, number: int, name: str) -
     points_read = int(header.points.reader(buffers).read()) if count else 0
     if points_read != count:
         raise InputError(
-            f"scan {number + 1} of {name!r} says it holds {count} points and has {points_read}; it may be truncated, "
+            f"scan {number + 1} of {name!r} declares {count} points and has {points_read}; it may be truncated, "
             "export or copy it again"
         )
     points = np.stack([np.asarray(data[field], dtype=np.float64) for field in system], axis=1)
@@ -120,6 +120,6 @@ def _check_header(path: Path) -> None:
     length, xml, xml_length, page = struct.unpack_from("<QQQQ", head, 16)
     if length != size or page != 1024 or not 48 <= xml <= size or not 0 < xml_length <= size - xml:
         raise InputError(
-            f"the header of {path.name!r} tells of {length} bytes with its index at byte {xml}, the file has {size}; "
+            f"the header of {path.name!r} states {length} bytes with its index at byte {xml}, the file has {size}; "
             "it is truncated or damaged, export or copy it again"
         )

@@ -226,7 +226,7 @@ def _numbers(path: Path) -> tuple[Array, list[str]]:
             f"{path.name!r} has {numbers.shape[1]} numbers a line below a heading of {len(heading)} cells"
         )
     if np.isinf(numbers).any():
-        raise InputError(f"{path.name!r} has a number that is infinite; a cell without a value is empty or says NaN")
+        raise InputError(f"{path.name!r} has a number that is infinite; a cell without a value is empty or NaN")
     return numbers, heading
 
 

@@ -48,7 +48,7 @@ class ScanOptions:
             positive("scale", self.scale, "m per unit of the file", remedy)
             if self.units is not None:
                 raise InputError(
-                    f"give either units ({self.units!r}) or scale, not both: each says how long a unit is"
+                    f"give either units ({self.units!r}) or scale, not both: each sets how long a unit is"
                 )
         if not math.isfinite(self.rotation):
             raise InputError(f"rotation must be a finite angle in rad, got {self.rotation}")

@@ -1,0 +1,112 @@
+"""Words of the field: what pages, messages, labels and help texts do not say, and what to write instead.
+
+The terms are those of the project's style: results do not act, and a thing has the name that the field gives it.
+Docstrings of the source and the history of development are not held to it yet.
+"""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import treadload
+from treadload import variables
+
+CLONE = Path(__file__).parents[2]
+ROOT = Path(treadload.__file__).parent
+# Term, and what to write instead.
+EVERYWHERE = {
+    r"\b(?:tells?|told|telling)\b": "states, shows, determines, distinguishes",
+    r"\b(?:says?|said|saying)\b": "states, shows, predicts",
+    r"\b(?:feels?|felt)\b": "depends on, is affected by",
+    r"\b(?:bears|borne)\b": "carries; reaches",
+    r"\bdoubts?\b|\bdoubted\b": "caveat",
+    r"\banew\b": "again",
+    r"\bto be had\b": "available",
+    r"\bwho does it\b|\bby whom\b": "governing criterion",
+    r"\b(?:[Ff]orces?|[Cc]reepages?) aside\b": "lateral force, lateral creepage",
+    r"\bno end\b": "infinite; no limit",
+    r"\bpasses it bears\b": "allowable load repetitions",
+    r"\b(?:laid|[Ll]ay it) beside\b": "compared with",
+}
+PAGES_ALONE = {
+    r"\brefused in a sentence\b|, each in a sentence\b": "raises an `InputError` that explains why",
+    r"\b[Rr]oads? with a grain\b": "cross-anisotropic layers",
+    r"\b[Ww]hen layers part\b": "interface debonding",
+    r"\b[Yy]ears with a probability\b": "reliability of the service life",
+    r"\bstones in mortar\b": "aggregate-scale model",
+    r"\bthe house\b|\b(?:its|the) rooms?\b": "architecture, subpackages",
+    r"\b[Vv]erdicts?\b": "assessment",
+    r"\bthe road extends\b": "the tensile strain reaches",
+}
+# Pages that record what was tried, and the one of the code's own parts.
+LEFT = {"development_history.md", "architecture.md"}
+GENERATED = ("executed", "auto_gallery", "auto_validation", "_ext")
+PAGES = [CLONE / "README.md", CLONE / "CONTRIBUTING.md"] + sorted(
+    page
+    for kind in ("*.md", "*.rst", "gallery/*.py", "validation_gallery/*.py")
+    for page in (CLONE / "docs").rglob(kind)
+    if page.name not in LEFT and page.relative_to(CLONE / "docs").parts[0] not in GENERATED
+)
+# Texts that are no sentences for a reader: names in JavaScript and CSS, and keys that files have.
+NO_SENTENCE = re.compile(r"=>|\{font-family|^<span|\bdoubts\b\W*$")
+
+
+def prose(page):
+    """Text of a page without code; of a script, its comments and docstring."""
+    text = page.read_text("utf-8")
+    if page.suffix == ".py":
+        return "\n".join(re.findall(r'\A""".*?"""|^# [^\n]*', text, re.DOTALL | re.MULTILINE))
+    return re.sub(r"```(?!\{).*?```|~~~.*?~~~|`[^`\n]*`", "", text, flags=re.DOTALL)
+
+
+def faults(text, terms):
+    """Terms that a text has, each with what to write instead."""
+    text = " ".join(text.split())
+    return [f"{found[0]!r}: write {better}" for term, better in terms.items() if (found := re.search(term, text))]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(CLONE).as_posix())
+def test_pages_have_the_words_of_the_field(page):
+    assert faults(prose(page), EVERYWHERE | PAGES_ALONE) == []
+
+
+def test_labels_have_the_words_of_the_field():
+    texts = [
+        *(row[1] for row in variables.VARIABLES.values()),
+        *(variables.display_of(name).label for name in variables.VARIABLES),
+    ]
+    assert len(texts) > 500
+    assert faults("; ".join(texts), EVERYWHERE) == []
+
+
+def strings(path):
+    """Texts of a module that are no docstrings: messages, captions, help of options; and docstrings of commands."""
+    tree = ast.parse(path.read_text("utf-8"))
+    owners = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
+    docstrings = {}
+    for node in ast.walk(tree):
+        for k, child in enumerate(getattr(node, "body", []) if not isinstance(node, ast.Lambda | ast.IfExp) else []):
+            if isinstance(child, ast.Expr) and isinstance(child.value, ast.Constant):
+                # The first of an owner, and those below an attribute.
+                docstrings[id(child.value)] = node if k == 0 and isinstance(node, owners) else None
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in docstrings:
+            yield node.value
+    if path.parent.name == "cli":
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef) and any("command" in ast.dump(mark) for mark in node.decorator_list):
+                yield ast.get_docstring(node) or ""
+
+
+@pytest.mark.parametrize("path", sorted(ROOT.rglob("*.py")), ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_messages_have_the_words_of_the_field(path):
+    texts = [text for text in strings(path) if " " in text.strip() and not NO_SENTENCE.search(text)]
+    assert [fault for text in texts for fault in faults(text, EVERYWHERE)] == []
+
+
+def test_a_fault_is_found():
+    assert faults("What it\ntells", EVERYWHERE) == ["'tells': write states, shows, determines, distinguishes"]
+    assert faults("a verdict on roads with a grain", PAGES_ALONE) != []
+    assert faults("the report states the storytelling", EVERYWHERE | PAGES_ALONE) == []
