@@ -43,12 +43,13 @@ PAGES_ALONE = {
 # Pages that record what was tried, and the one of the code's own parts.
 LEFT = {"development_history.md", "architecture.md"}
 GENERATED = ("executed", "auto_gallery", "auto_validation", "_ext")
-PAGES = [CLONE / "README.md", CLONE / "CONTRIBUTING.md"] + sorted(
+PAGES = sorted(
     page
     for kind in ("*.md", "*.rst", "gallery/*.py", "validation_gallery/*.py")
     for page in (CLONE / "docs").rglob(kind)
     if page.name not in LEFT and page.relative_to(CLONE / "docs").parts[0] not in GENERATED
 )
+PAGES += [CLONE / "README.md", CLONE / "CONTRIBUTING.md"]
 # Texts that are no sentences for a reader: names in JavaScript and CSS, and keys that files have.
 NO_SENTENCE = re.compile(r"=>|\{font-family|^<span|\bdoubts\b\W*$")
 
