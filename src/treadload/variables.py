@@ -480,6 +480,15 @@ _CLIMATE = {
     "sublayer_temperature": ("degC", "temperature of a part of a course in a season"),
     "sublayer_modulus": ("Pa", "Young's modulus of a part of a course, in a season where there are several"),
     "sublayer_modulus_young": ("Pa", "the same of the young mix"),
+    "season_modulus": (
+        "Pa",
+        "Young's modulus of a layer with a factor of its season, such as frost; at the nominal stress of a law",
+    ),
+    "frost_depth": ("m", "depth of the deepest frozen point of the unbound layers, 0 without any"),
+    "thaw_depth": ("m", "depth of the uppermost frozen point of the unbound layers"),
+    "day": ("1", "day of the year of the weather, from 1"),
+    "day_month": ("1", "month of a day, January 1"),
+    "factored_layer": ("", "layer with a factor of frost, thaw or moisture"),
     "sublayer_bulk_stress": (
         "Pa",
         "bulk stress in the law of a stress-dependent part of a course, compressive",

@@ -11,6 +11,7 @@ from treadload.damage import Climate, Season
 from treadload.damage.climate import MONTHS, month_of
 from treadload.errors import InputError
 from treadload.kernels.freezing import FreezingCells, freezing, neumann_front
+from treadload.life.layered_climate import climate_fields
 from treadload.life.seasons import warmed
 from treadload.materials import Elastic, KTheta, StressDependent
 from treadload.pavement import (
@@ -24,6 +25,8 @@ from treadload.pavement import (
     frost_year,
     road_temperatures,
 )
+from treadload.plots import frost_months
+from treadload.reporting.life import life_report
 
 DAY = 86_400.0
 
@@ -222,6 +225,48 @@ def test_a_life_with_frost_runs_to_its_years():
     # Per year, as shares of the damage are of the years.
     yearly = [part / years for part, years in zip(damage, (frozen, without), strict=True)]
     months = [month_of(str(name)) for name in lives[0].dataset["season"].to_numpy()]
+    titles = [{picture.title for picture in life_report("a road", life.dataset).pictures} for life in lives]
+    assert ["Frost depth and moduli by month" in drawn for drawn in titles] == [True, False]
     thaw, winter = months.index(6), months.index(2)
     assert float(yearly[0][thaw]) > 1.3 * float(yearly[1][thaw])
     assert float(yearly[0][winter]) < 0.3 * float(yearly[1][winter])
+
+
+@pytest.fixture(scope="module")
+def frozen_fields():
+    weather = Weather.of_months([-8, -6, -1, 6, 12, 16, 19, 17, 12, 6, -1, -6])
+    temperatures = road_temperatures(road(), weather, [0.0, 0.1, 0.4])
+    year = frost_year(road(), temperatures, Frost())
+    climate = Climate.of_road(road(), temperatures, parts=1)
+    months = [month_of(season.name) for season in climate.seasons]
+    return climate_fields(road(), climate.with_frost(year, months)), year
+
+
+def test_frost_and_moduli_by_month_are_kept_and_drawn(frozen_fields):
+    fields, year = frozen_fields
+    np.testing.assert_array_equal(fields["frost_depth"], year.frost_depth)
+    np.testing.assert_array_equal(fields["day_month"], year.months)
+    names = [str(name) for name in fields["factored_layer"].values]
+    assert names == ["base", "soil"]
+    for column, name in enumerate(names):
+        recovered = next(layer for layer in road().layers if layer.name == name).resolved.modulus
+        wanted = [recovered * year.factor(month).get(name, 1.0) for month in range(1, 13)]
+        np.testing.assert_allclose(fields["season_modulus"].values[:, column], wanted, rtol=1e-12)
+    figure = frost_months(fields)
+    upper, lower = figure.axes
+    assert [label.get_text() for label in lower.get_xticklabels()][:2] == ["Jan", "Feb"]
+    drawn = lower.patches[0].get_data().values
+    np.testing.assert_allclose(drawn, 1e-6 * fields["season_modulus"].values[:, 0])
+    # The line of the frozen depth reaches the deepest day.
+    assert np.nanmax(upper.lines[0].get_ydata()) == pytest.approx(year.frost_depth.max())
+
+
+def test_stated_factors_are_drawn_without_frost():
+    seasons = (Season("thaw", 0.2, 5.0, factors={"soil": 0.5}), Season("rest", 0.8, 15.0))
+    fields = climate_fields(road(), Climate(seasons))
+    np.testing.assert_allclose(fields["season_modulus"].values[:, 0], [30e6, 60e6])
+    assert "frost_depth" not in fields
+    (ax,) = frost_months(fields).axes
+    assert [label.get_text() for label in ax.get_xticklabels()] == ["thaw", "rest"]
+    with pytest.raises(InputError, match="needs season_modulus"):
+        frost_months(climate_fields(road(), Climate.constant(15.0)))

@@ -132,7 +132,8 @@ class Climate:
 
     seasons: whose shares sum to 1. about: how they were found, in sentences. warnings: sentences for the user. days:
     below a weather the mean day of every month, from which figures are drawn and daily thermal stress follows.
-    thermal: how that stress counts; None for not at all. Raises InputError.
+    thermal: how that stress counts; None for not at all. frost: in the unbound layers by days, from which figures are
+    drawn; its factors stand in the seasons. Raises InputError.
     """
 
     seasons: tuple[Season, ...]
@@ -140,6 +141,7 @@ class Climate:
     warnings: tuple[str, ...] = ()
     days: TypicalDays | None = field(default=None, compare=False, repr=False)
     thermal: Thermal | None = None
+    frost: FrostYear | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "seasons", tuple(self.seasons))
@@ -177,7 +179,7 @@ class Climate:
         seasons = tuple(
             replace(season, factors=by_month[month]) for season, month in zip(self.seasons, months, strict=True)
         )
-        return replace(self, seasons=seasons, about=(*self.about, str(frost)))
+        return replace(self, seasons=seasons, about=(*self.about, str(frost)), frost=frost)
 
     def within(self, sublayers: float | None, ageing: Ageing | None) -> Climate:
         """The same climate with the road's courses divided, see `Season`."""

@@ -46,7 +46,9 @@ class Life(BaseResult, group="life"):
     weather day_temperature (month, hour, profile_depth); where daily thermal stress counts weather_share,
     weather_reading, weather_stress (criterion, month) and day_tension (month, profile_depth), damage_share being the
     traffic's in the whole; where courses are divided sublayer_modulus and
-    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; of criteria of the surface
+    sublayer_temperature (season, sublayer), with ageing sublayer_modulus_young; where seasons have factors on layers
+    season_modulus (season, factored_layer), below a weather with frost frost_depth and thaw_depth (day); of criteria
+    of the surface
     life_years_fresh_line and life_years_aged_line, NaN of others, with surface_lines in the attributes; with rutting
     rut_depth (rut_layer, year), and rut_names, rut_limit and rut_years in its attributes. criteria,
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
@@ -69,6 +71,9 @@ class Life(BaseResult, group="life"):
             "profile_depth": "profile_depth",
             "sublayer_top sublayer_bottom sublayer_layer": "sublayer",
             "sublayer_temperature sublayer_modulus sublayer_modulus_young": "season sublayer",
+            "season_modulus": "season factored_layer",
+            "frost_depth thaw_depth day_month": "day",
+            "day": "day",
             "rut_depth": "rut_layer year",
             "rut_layer": "rut_layer",
             "year": "year",

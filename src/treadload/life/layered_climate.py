@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -11,9 +12,11 @@ import xarray as xr
 from treadload import variables
 from treadload.damage.climate import MONTHS, Climate, Season
 from treadload.kernels.arrays import Array
-from treadload.life.seasons import warmed
+from treadload.life.seasons import in_season, warmed
+from treadload.life.stiffer import names_of
 from treadload.life.thermal import day_tension
-from treadload.materials import AtStress, Elastic
+from treadload.materials import AtStress, Elastic, StressDependent
+from treadload.materials.kinds import AnyElastic, upright
 from treadload.pavement import Pavement, divided
 from treadload.pavement.sublayers import middle_temperatures
 
@@ -25,6 +28,8 @@ def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
     profile_depth). sublayer_temperature and sublayer_modulus (season,
     sublayer), where all seasons divide courses alike: of all parts above the last layer, without the frequencies of
     the classes; NaN for a material without one modulus. sublayer_modulus_young: with ageing, that of the young mix.
+    Where seasons have factors on the moduli of layers season_modulus (season, factored_layer), of a stress-dependent
+    layer at its nominal stress; below a weather with frost frost_depth and thaw_depth (day).
     """
     fields: dict[str, tuple[tuple[str, ...], Any]] = {}
     coordinates: dict[str, Any] = {}
@@ -54,7 +59,36 @@ def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
             young = [_moduli(road, _young(season), count) for season in seasons]
             fields["sublayer_modulus_young"] = (over, np.array(young))
         coordinates |= {"season": [season.name for season in seasons], "sublayer": np.arange(count)}
+    factored = [name for name in names_of(road) if any(name in dict(season.factors) for season in seasons)]
+    if factored:
+        fields["season_modulus"] = (("season", "factored_layer"), _factored(road, seasons, factored))
+        coordinates |= {"season": [season.name for season in seasons], "factored_layer": factored}
+    if climate.frost is not None:
+        fields |= {
+            "frost_depth": (("day",), climate.frost.frost_depth),
+            "thaw_depth": (("day",), climate.frost.thaw_depth),
+        }
+        coordinates["day"] = np.arange(1, len(climate.frost.months) + 1)
+        coordinates["day_month"] = ("day", climate.frost.months)
     return variables.dataset(fields, coordinates)
+
+
+def _factored(road: Pavement, seasons: Sequence[Season], names: Sequence[str]) -> Array:
+    """Young's modulus of layers by their names in the seasons (season, layer), Pa; upright where it is anisotropic.
+
+    NaN where a layer waits for a temperature that its season gives over depth.
+    """
+    table = np.full((len(seasons), len(names)), np.nan)
+    for row, season in enumerate(seasons):
+        moved = in_season(road, season)
+        for column, name in enumerate(names):
+            layer = moved.layers[names_of(road).index(name)]
+            if layer.depends_on_temperature:
+                continue
+            material = layer.material.nominal if isinstance(layer.material, StressDependent) else layer.resolved
+            if isinstance(material, AnyElastic):
+                table[row, column] = upright(material)[0]
+    return table
 
 
 def _young(season: Season) -> Season:

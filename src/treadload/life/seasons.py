@@ -76,7 +76,7 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: A
     moduli of its wheels, discs of the wheel load under the inflation pressure, and nominal ones without a class.
     Raises InputError for temperatures that do not fit the road, ConvergenceError for moduli that do not settle.
     """
-    road = _in_season(road, season)
+    road = in_season(road, season)
     temperature = season.temperature
     if isinstance(temperature, tuple) and len(temperature) != len(road.layers):
         raise InputError(
@@ -103,7 +103,7 @@ def warmed(road: Pavement, criteria: Sequence[Criterion], season: Season, row: A
     return _settled(Warm(warm, placed_in), row) if warm.depends_on_stress else Warm(warm, placed_in)
 
 
-def _in_season(road: Pavement, season: Season) -> Pavement:
+def in_season(road: Pavement, season: Season) -> Pavement:
     """The road with the factors of the season on the moduli of its layers. Raises InputError for a strange name."""
     names = names_of(road)
     for name, factor in season.factors:

@@ -24,6 +24,7 @@ from treadload.plots.first import first_places
 from treadload.plots.first_crack import first_crack
 from treadload.plots.footprint import comparison_cuts, comparison_maps, rib_shares
 from treadload.plots.fringes import fringe_scan
+from treadload.plots.frost import frost_months
 from treadload.plots.growth import crack_depth, crack_intensity
 from treadload.plots.history import transient_history, turn_history
 from treadload.plots.indentation import indentation
@@ -98,6 +99,7 @@ __all__ = [
     "first_places",
     "fitted_basins",
     "fringe_scan",
+    "frost_months",
     "height_map",
     "indentation",
     "life_damage",

@@ -52,7 +52,7 @@ def day_temperatures(life: Source, months: Sequence[int] = (1, 4, 7, 10)) -> Fig
     rows = -(-len(chosen) // columns)
     figure = new_figure(9.6, 0.9 + 2.5 * rows)
     axes = figure.subplots(rows, columns, sharex=True, sharey=True, squeeze=False).ravel()
-    borders = _borders(data)
+    borders = layer_bottoms(data)
     for ax, month, day in zip(axes, chosen, days, strict=False):
         filled = ax.contourf(hour, depth, day.T, levels=levels, cmap=named_map("inferno"))
         ax.axhline(depth[0], color=INK, lw=0.7)
@@ -116,7 +116,7 @@ def season_moduli(life: Source) -> Figure:
         ]
     for ax in (left, right):
         open_axes(ax)
-        for border in _borders(data)[:-1]:
+        for border in layer_bottoms(data)[:-1]:
             ax.axhline(border, color=MUTED, lw=0.8, ls=(0, (4, 3)))
     left.set_ylim(bottom[-1], 0)
     left.set_ylabel(DEPTH_LABEL)
@@ -134,7 +134,7 @@ def season_moduli(life: Source) -> Figure:
     return figure
 
 
-def _borders(data: xr.Dataset) -> Array:
+def layer_bottoms(data: xr.Dataset) -> Array:
     """Depths of the bottoms of layers, mm; none where they are not known."""
     if not {"sublayer_layer", "sublayer_bottom"} <= set(data.variables):
         return np.empty(0)
