@@ -65,11 +65,16 @@ def with_outputs(page: str, outputs: list[Output], folder: str) -> str:
         parts.append(page[begin : block.end])
         begin = block.end
         if output.text.strip():
-            parts.append(f"\n\n```{{code-block}} text\n:class: output\n\n{output.text.strip()}\n```\n")
+            parts.append(f"\n\n```{{code-block}} text\n:class: output\n\n{_lines(output.text)}\n```\n")
         for picture in output.pictures:
             title = picture.removesuffix(".png").replace("_", " ")
             parts.append(f"\n\n```{{image}} {folder}/{picture}\n:alt: Figure drawn by the code above: {title}\n```\n")
     return "".join([*parts, page[begin:]])
+
+
+def _lines(text: str) -> str:
+    """Printed lines without empty ones at both ends; a heading keeps its indent."""
+    return text.strip("\n").rstrip()
 
 
 def setup(app: Sphinx) -> dict[str, Any]:

@@ -79,7 +79,7 @@ def test_links_lead_somewhere(page):
 
 
 def test_every_page_of_the_book_is_in_it():
-    for folder in ("tutorials", "reference"):
+    for folder in ("tutorials", "reference", "coming_from"):
         text = (DOCS / folder / "index.md").read_text("utf-8")
         pages = {page.stem for page in (DOCS / folder).glob("*.md")} - {"index"}
         assert pages <= set(re.findall(r"^[\w-]+$", text, re.MULTILINE)), folder

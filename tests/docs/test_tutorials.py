@@ -165,9 +165,9 @@ def test_outputs_stand_below_their_blocks(monkeypatch, page_runner):
     from executed_pages import with_outputs
 
     page = "a\n\n```python\nprint(1)\n```\n\nb\n\n```toml\n# c.toml\n```\n"
-    outputs = [page_runner.Output("1\n", ("d_e.png",)), page_runner.Output()]
+    outputs = [page_runner.Output("\n  1\n", ("d_e.png",)), page_runner.Output()]
     text = with_outputs(page, outputs, "/executed/x")
-    assert re.search(r"print\(1\)\n```\n\n```\{code-block\} text\n:class: output\n\n1\n```\n", text)
+    assert re.search(r"print\(1\)\n```\n\n```\{code-block\} text\n:class: output\n\n  1\n```\n", text)
     assert "{image} /executed/x/d_e.png\n:alt: Figure drawn by the code above: d e\n" in text
     assert text.endswith("```toml\n# c.toml\n```\n")
 
