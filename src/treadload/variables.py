@@ -767,6 +767,7 @@ _DISPLAYS_DAMAGE = {
 }
 
 _DISPLAYS_LIFE = {
+    "solved_anew": Display("solved again"),
     "life_years": Display("service life", "", years_in_words),
     "life_years_fresh_line": Display("by the fresh line", "", years_in_words),
     "life_years_aged_line": Display("by the aged line", "", years_in_words),
