@@ -311,6 +311,21 @@ def test_a_click_in_the_verdict_flies_to_the_place(visit):
     assert low < at < high
 
 
+def test_a_place_beyond_the_map_is_shown_together_with_the_map(visit):
+    page = visit.page
+    left, right, near, far = page.evaluate(
+        "(({x, y}) => [x[0], x.at(-1), y[0], y.at(-1)])(document.querySelector('.maps')._fullData[0])"
+    )
+    page.evaluate("treadloadFly(1100, -700)")
+    page.wait_for_function("document.querySelector('.maps')._fullLayout.xaxis.range[1] > 1100")
+    low, high = page.evaluate("document.querySelector('.maps')._fullLayout.xaxis.range")
+    bottom, top = page.evaluate("document.querySelector('.maps')._fullLayout.yaxis.range")
+    assert low <= left < right < 1100 < high
+    # y points to the right of travel: downwards.
+    assert top < -700 < near < far <= bottom
+    page.evaluate("treadloadWhole()")
+
+
 def test_garbage_gives_the_sentence_of_the_reader(visit, tmp_path):
     path = tmp_path / "garbage.obj"
     path.write_bytes(b"\x00\xff v no mesh " * 50)

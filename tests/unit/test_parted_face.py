@@ -185,3 +185,15 @@ def test_a_case_names_a_parted_face_and_frictionless_stays_what_it_was() -> None
     assert str(made) == "parted with friction 0.6"
     assert FRICTIONLESS.sticking is FRICTIONLESS
     assert Parted(0.6).sticking == tl.pavement.BONDED
+
+
+@pytest.mark.slow
+def test_the_surface_above_a_parted_face_is_assessed_on_its_whole_basin() -> None:
+    road, x = delaminate(ROAD, 0, Parted(0.6)), np.linspace(-0.2, 0.2, 33)
+    verdict = tl.assess(tl.solve_response(WHEEL, road, depths=[0.0], x=x, y=x), tl.FatigueLine(100e-6, -0.2))
+    data = verdict.dataset
+    at = [np.array([float(data[f"worst_{name}"])]) for name in ("x", "y")]
+    there = tl.solve_response(WHEEL, road, depths=[0.0], x=at[0], y=at[1], mean_over=0.01).dataset
+    # The in-plane strain that the law evaluates, solved at the worst point alone.
+    assert float(data["worst_strain"]) == pytest.approx(float(there["in_plane_strain_1"].max()), rel=1e-3)
+    assert float(data["worst_strain"]) >= float(data["extension_by_depth"][0]) * (1 - 1e-6)

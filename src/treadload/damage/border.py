@@ -1,24 +1,20 @@
-"""A largest value on the border of what was solved: the field is solved further; what still ends there is named."""
+"""The largest value beyond a map: a whole basin near the surface, else from a value on its border on."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from dataclasses import field as dataclass_field
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source
-from treadload.damage.history import with_horizontal_stress
-from treadload.damage.reading import Field, read_means
+from treadload.damage.field_beyond import FieldBeyond
+from treadload.damage.reading import Field
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
-from treadload.response import Response, solve_response
-from treadload.response.basin import BEYOND, basin_reach, basin_tensors, coarsened, too_wide
-from treadload.response.loads import GridLoad, SurfaceLoad, UniformRectangle
+from treadload.response import Response
+from treadload.response.basin import NEAR_SURFACE, basin_reach, too_wide
 from treadload.response.means import Means
-from treadload.response.several import Question, components_of
 
 Evaluate = Callable[[Array, Array], Array]
 """Values (depth, y, x) at x (mx,) and y (my,), m."""
@@ -29,6 +25,9 @@ _MAP = 5
 _FIRST, _ENLARGEMENTS = 0.3, 6
 # Points beyond the map stand this far apart, m, and closer at its end, where a tread's edges may be near.
 _STEP, _CLOSEST = 0.06, 0.004
+_GRADED = _CLOSEST * 2.0 ** np.arange(np.ceil(np.log2(_STEP / _CLOSEST)))
+# And further apart where that is this part of their distance.
+_WIDER = 0.07
 # Of the map itself so many points along an axis are evaluated again.
 _INSIDE = 24
 # Points between the neighbours of the largest value, and how often they are taken closer.
@@ -43,7 +42,7 @@ _FLOOR = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Beyond:
-    """What was evaluated beyond a map whose largest value lies at its end.
+    """What was evaluated beyond a map.
 
     x, y: place of the largest value beyond it, m. value: there. by_depth: (depth,), largest of each. enlargements:
     how often the field was enlarged. reach: how far beyond the ends of the map it was evaluated, m. at_end: whether
@@ -73,11 +72,7 @@ def beyond_the_map(
     if not ends:
         return None
     *_, row, column = index_of_largest(values)
-    axes: tuple[Array, ...] = (y, x)
-    kept = [
-        np.union1d(axis[:: max(1, len(axis) // _INSIDE)], axis[[0, number, -1]])
-        for axis, number in zip(axes, (row, column), strict=True)
-    ]
+    axes, kept = (y, x), _kept((y, x), (row, column))
     most, more = max(float(np.nanmax(values)), floor), np.zeros((2, 2))
     enlargements = 0
     at, further_values = axes, values
@@ -133,12 +128,12 @@ def _stretched(inside: Array, before: float, after: float) -> Array:
 
 
 def _offsets(reach: float) -> Array:
-    """Distances from an end up to a reach, m, from close ones to even ones; none for 0."""
+    """Distances from an end up to a reach, m, from close ones to even and then to wider ones; none for 0."""
     if reach <= 0:
         return np.empty(0)
-    graded = _CLOSEST * 2.0 ** np.arange(np.ceil(np.log2(_STEP / _CLOSEST)))
-    even = np.arange(graded[-1] + _STEP, reach, _STEP)
-    offsets = np.concatenate([graded, even])
+    even = np.arange(_GRADED[-1] + _STEP, _STEP / _WIDER, _STEP)
+    more = max(0, int(np.ceil(np.log(reach / even[-1]) / np.log1p(_WIDER))))
+    offsets = np.concatenate([_GRADED, even, even[-1] * (1 + _WIDER) ** np.arange(1, more + 1)])
     return np.append(offsets[offsets < reach - 0.5 * _CLOSEST], reach)
 
 
@@ -157,129 +152,122 @@ def _closer(axes: tuple[Array, ...], values: Array, evaluate: Evaluate) -> tuple
     return at, further_values
 
 
+def whole_basin(values: Array, x: Array, y: Array, field: FieldBeyond, reach: float) -> Beyond | None:
+    """Values of the whole basin around loads, beyond a map, at once; None where the map holds all of it.
+
+    values, x, y: of the map, as `beyond_the_map` takes them. field: anywhere. reach: how far around the loads the
+    basin is followed, m. So a largest value inside the map does not hide a larger one of the basin. Points between a
+    map that ends close to the loads and their basin cost most; they are evaluated where the largest value lies at the
+    end of the map, or the basin's comes near to it.
+    """
+    *_, row, column = index_of_largest(values)
+    axes, kept = (y, x), _kept((y, x), (row, column))
+    ends, most = bool(_ends(values, (y, x))), float(np.nanmax(values))
+
+    def places(cells: tuple[float, float] | None = None) -> tuple[Array, ...]:
+        sides = zip(kept, axes, field.loaded, cells or (0.0, 0.0), strict=True)
+        return tuple(_around(inside, axis, loaded, reach, cell) for inside, axis, loaded, cell in sides)
+
+    # Closed forms cost least on the lattice of the loads, waves on few points.
+    at = places(None if ends else field.lattice)
+    more = max(max(axis[0] - points[0], points[-1] - axis[-1]) for axis, points in zip(axes, at, strict=True))
+    if not more > 0:
+        return None
+    further = field.values(at[1], at[0], near=ends)
+    if not ends and np.fmax.reduce(further, axis=None) > _RIVAL * most:
+        at = places()
+        further = field.values(at[1], at[0])
+    if np.isnan(further).all():
+        return None
+    at_end = bool(_ends(further, at)) and bool(np.nanmax(further) > max(most, 0.0))
+    by_depth = _by_depth(further)
+    if not at_end and np.nanmax(further) > _RIVAL * most:
+        at, further = _closer(at, further, field.closely)
+        by_depth = np.fmax(by_depth, _by_depth(further))
+    *_, row, column = index_of_largest(further)
+    return Beyond(
+        float(at[1][column]), float(at[0][row]), float(np.nanmax(further)), by_depth, 1, float(more), at_end
+    )
+
+
+def _kept(axes: tuple[Array, Array], largest: tuple[int, int]) -> list[Array]:
+    """Of each axis of a map the points that are evaluated again: few, its ends, and the largest value's."""
+    return [
+        np.union1d(axis[:: max(1, len(axis) // _INSIDE)], axis[[0, number, -1]])
+        for axis, number in zip(axes, largest, strict=True)
+    ]
+
+
+def _by_depth(values: Array) -> Array:
+    largest: Array = np.fmax.reduce(values.reshape(len(values), -1), axis=1)
+    return largest
+
+
+def _around(inside: Array, axis: Array, loaded: tuple[float, float], reach: float, cell: float) -> Array:
+    """Points of an axis of a map with others as far as a reach around loads, m; of a few places those alone.
+
+    cell: m, of a lattice that starts where loads start, on which all points stand then; 0 for none.
+    """
+    if len(axis) < _MAP:
+        return inside
+    low, high = loaded
+    if cell:
+        step = cell * max(1, round(_STEP / cell))
+        return np.asarray(low + step * np.arange(-np.ceil(reach / step), np.ceil((high - low + reach) / step) + 1))
+    beside = _offsets(reach)
+    every = [low - beside, np.arange(low, high, _STEP), high + beside, axis[0] - _GRADED, axis[-1] + _GRADED]
+    points = np.unique(np.concatenate(every))
+    points = points[(points < axis[0] - 0.5 * _CLOSEST) | (points > axis[-1] + 0.5 * _CLOSEST)]
+    points = points[np.diff(points, prepend=-np.inf) > 0.5 * _CLOSEST]
+    return np.union1d(inside, points)
+
+
 def evaluated_further(response: Source, field: Field, means: Means | None) -> tuple[Field | None, Beyond | None]:
     """The field of an assessment at the largest value beyond its map, and what was evaluated there.
 
     response: whose road and loads are evaluated. means: of that response; None for points at a depth.
-    Both are None where the largest value of the map lies inside it, and where the response cannot be solved again;
-    the field alone where the map's own value is larger.
+    Near the surface the whole basin is evaluated always, of a homogeneous road too: in front of a tire that rolls
+    freely the strain rises with the distance at first, by a third 0.1 m beyond its cells. Deeper the field is
+    enlarged where the largest value of the map lies at its end.
+    Both are None where nothing beyond the map was evaluated; the field alone where the map's value is larger.
     """
     if not isinstance(response, Response) or response.road is None or not response.loads:
         return None, None
-    more = _Further.of(response, means, field)
+    more, reach = FieldBeyond.of(response, means, field), basin_reach([response.road])
     x, y = (field.data[name].to_numpy() for name in ("x", "y"))
     floor = _FLOOR * max(float(np.nanmax(field.extension)), 0.0)
-    beyond = beyond_the_map(field.value, x, y, more.values, basin_reach([response.road]), floor)
-    if beyond is None or not beyond.value > max(LARGER * field.most, floor):
+    if more.coarse is not None and float(field.data["depth"].min()) <= NEAR_SURFACE:
+        beyond = whole_basin(field.value, x, y, more, reach)
+    else:
+        beyond = beyond_the_map(field.value, x, y, more.values, reach, floor)
+    # Coarse values may err by half a per cent, either way.
+    if beyond is None or not beyond.value > max(_RIVAL * field.most, floor):
         return None, beyond
     exact = more.at(np.array([beyond.x]), np.array([beyond.y]))
-    return exact, replace(beyond, value=exact.most)
-
-
-@dataclass(frozen=True, eq=False)
-class _Further:
-    """The field of an assessment anywhere; arguments as `evaluated_further`.
-
-    coarse: loads under which the basin beyond the map is solved on few waves, to half a per cent, from `BEYOND` their
-    cells on; None where loads are discs, which cost little, or the road is homogeneous. near: exact values nearer to
-    the loads, by the points at which they were evaluated.
-    """
-
-    response: Response
-    means: Means | None
-    field: Field
-    coarse: list[SurfaceLoad] | None = None
-    near: dict[bytes, Array] = dataclass_field(default_factory=dict)
-
-    @classmethod
-    def of(cls, response: Response, means: Means | None, field: Field) -> _Further:
-        """Of an assessment, with coarse loads where the response is of footprints on layers."""
-        needs = components_of(field.quantity.needs)
-        wheels = _grids(response)
-        assert response.road is not None
-        if needs is None or len(wheels) < len(response.loads) or response.road.is_homogeneous:
-            return cls(response, means, field)
-        return cls(response, means, field, coarsened(wheels))
-
-    def values(self, x: Array, y: Array) -> Array:
-        """What is evaluated at x (mx,) and y (my,), m, (depth, y, x); NaN in the map where the loads are coarse."""
-        if self.coarse is None:
-            return self.at(x, y).value
-        response, depths = self.response, self.field.data["depth"].to_numpy()
-        assert response.road is not None
-        solved = basin_tensors(
-            [Question(self.coarse, response.road, depths)], x, y, needs=self.field.quantity.needs,
-            speed=response.speed, side=response.side, mean_over=None if self.means is None else self.means.length,
-        )  # fmt: skip
-        assert solved is not None
-        values = replace(self.field, data=self._restrained(solved[0])).value
-        data, wheels = self.field.data, [load.grid for load in _grids(response)]
-        # By axis: whether a point lies within the map, and so near to the loads that the coarse ones are not enough.
-        within, close = [], []
-        for axis, at in (("y", y), ("x", x)):
-            ends = data[axis].to_numpy()[[0, -1]]
-            cells = [getattr(grid, axis)[[0, -1]] for grid in wheels]
-            low, high = min(first for first, _ in cells) - BEYOND, max(last for _, last in cells) + BEYOND
-            within.append((at > ends[0]) & (at < ends[1]))
-            close.append((at > low) & (at < high))
-        outside = any((near & ~inside).any() for near, inside in zip(close, within, strict=True))
-        if outside and all(near.any() for near in close):
-            values[:, *np.ix_(*close)] = self._near(x[close[1]], y[close[0]])
-        values[:, *np.ix_(*within)] = np.nan
-        return values
-
-    def _near(self, x: Array, y: Array) -> Array:
-        """Exact values, evaluated once for each set of points."""
-        key = x.tobytes() + y.tobytes()
-        if key not in self.near:
-            self.near[key] = self.at(x, y).value
-        return self.near[key]
-
-    def at(self, x: Array, y: Array) -> Field:
-        """The field itself there, exact to 1e-6 of the largest."""
-        depths, response = self.field.data["depth"].to_numpy(), self.response
-        if self.means is not None:
-            quantity, rough = self.field.quantity, not self.means.road.is_viscoelastic
-            return replace(self.field, data=read_means(self.means, quantity, depths, x=x, y=y, rough=rough))
-        assert response.road is not None
-        data = solve_response(
-            response.loads, response.road, depths=depths, x=x, y=y, speed=response.speed, side=response.side
-        ).dataset
-        return replace(self.field, data=self._restrained(data))
-
-    def _restrained(self, data: xr.Dataset) -> xr.Dataset:
-        """Fields with the thermal stress that was added to the response."""
-        response = self.response
-        if not response.restrained:
-            return data
-        levels = response.dataset["depth"].to_numpy()
-        stress = [response.restrained[int(np.argmin(np.abs(levels - z)))] for z in data["depth"].to_numpy()]
-        return with_horizontal_stress(data, np.array(stress))
-
-
-def _grids(response: Response) -> list[GridLoad]:
-    """Those loads of a response that stand on cells, or are one."""
-    loads = [load.cell if isinstance(load, UniformRectangle) else load for load in response.loads]
-    return [load for load in loads if isinstance(load, GridLoad)]
+    by_depth = np.fmin(beyond.by_depth, exact.most)
+    by_depth[int(np.nanargmax(beyond.by_depth))] = exact.most
+    beyond = replace(beyond, value=exact.most, by_depth=by_depth)
+    return (exact if exact.most > max(LARGER * field.most, floor) else None), beyond
 
 
 def border_in_words(response: Source, field: Field, beyond: Beyond | None) -> list[str]:
-    """A sentence if the largest value of a map lies at its end, and a larger one does or may lie beyond.
+    """A sentence if a value beyond a map is or may be larger than the largest of the map.
 
     response: that of the map. field: over (depth, y, x). beyond: what was evaluated further, None for nothing.
     """
     axes = {name: field.data[name].to_numpy() for name in ("y", "x")}
     _, *numbers = field.worst
     ends = _ends(field.value, (axes["y"], axes["x"]))
-    if not ends:
+    larger = beyond is not None and beyond.value > LARGER * max(field.most, 0.0)
+    if not (ends or larger):
         return []
     names = ("y", "x")
     where = " and ".join(f"{names[axis]} = {1e3 * axes[names[axis]][numbers[axis]]:.0f} mm" for axis, _ in ends)
     wide = too_wide(response.road) if isinstance(response, Response) and response.road is not None else ""
-    most = field.most
-    text = f"the largest evaluated strain of the map, {1e6 * most:.3g} microstrain, lies at its end, {where}"
-    if not most > 0:
-        if beyond is None or not beyond.value > 0:
+    text = f"the largest evaluated strain of the map, {1e6 * field.most:.3g} microstrain, "
+    text += f"lies at its end, {where}" if ends else "is smaller than one beyond it"
+    if not field.most > 0:
+        if not larger:
             return [wide] if wide else []
         text = "no crack opens in the map"
     if beyond is None:
@@ -291,12 +279,10 @@ def border_in_words(response: Source, field: Field, beyond: Beyond | None) -> li
     there = f"{1e6 * beyond.value:.3g} microstrain at x = {1e3 * beyond.x:.0f} mm, y = {1e3 * beyond.y:.0f} mm"
     if beyond.at_end:
         return [
-            f"{text}; {solved} ({beyond.enlargements} enlargements), and the largest, {there}, still lies at the "
-            "end, so that a larger one may lie beyond" + (f": {wide}" if wide else "")
+            f"{text}; {solved}, and the largest, {there}, still lies at the end, so that a larger one may lie beyond"
+            + (f": {wide}" if wide else "")
         ]
-    if beyond.value > LARGER * most:
-        return [f"{text}; {solved}, and the assessment is that of the largest, {there}"]
-    return []
+    return [f"{text}; {solved}, and the assessment is that of the largest, {there}"] if larger else []
 
 
 def _how_far(response: Source) -> str:

@@ -196,7 +196,7 @@ def _chebyshev(at: Array) -> tuple[Array, Array]:
     """Weights (m, n) of values at n points in those at m coordinates between, m, and the points; all if few."""
     if len(at) <= _CHEBYSHEV:
         return np.eye(len(at)), at
-    unit = np.cos(np.pi * (np.arange(_CHEBYSHEV) + 0.5) / _CHEBYSHEV)
+    unit = -np.cos(np.pi * (np.arange(_CHEBYSHEV) + 0.5) / _CHEBYSHEV)
     middle, half = 0.5 * (at.max() + at.min()), 0.5 * np.ptp(at)
     # Lagrange's polynomials.
     off_diagonal = ~np.eye(_CHEBYSHEV, dtype=bool)

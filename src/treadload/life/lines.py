@@ -14,12 +14,12 @@ from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import BESIDE_STEP, Basin
 from treadload.life.peaks import Strips
 from treadload.life.wheels import MARGIN, Wheels
-from treadload.response.basin import BEYOND
+from treadload.response.basin import BEYOND, NEAR_SURFACE
 from treadload.response.several import components_of
 
 # Below this depth, m, points a sixth of the depth apart, at most the last, m, follow the field: 1 % of the shear
 # at 60 mm.
-_DEEP, _PER_DEPTH, _COARSE = 0.05, 6, 0.02
+_PER_DEPTH, _COARSE = 6, 0.02
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def nearest_of(places: Array, y: Array) -> IntArray:
 def stride_of(depth: float, cell: float) -> int:
     """Cells from one point to the next at a depth; 0 near the surface, where each counts."""
     wide = min(depth / _PER_DEPTH, _COARSE)
-    return max(1, int(wide / cell + 0.5)) if depth > _DEEP else 0
+    return max(1, int(wide / cell + 0.5)) if depth > NEAR_SURFACE else 0
 
 
 def along(wheels: Wheels, plane: Plane) -> Array:

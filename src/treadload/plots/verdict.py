@@ -166,7 +166,9 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     bar.minorticks_off()
     row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
     mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
-    headline(ax, "Allowable load repetitions", f"fewest {power_of_ten(least)}; {_line_in_words(data)}")
+    headline(
+        ax, "Allowable load repetitions", f"fewest {power_of_ten(least)}; {_line_in_words(data)}{_first_beyond(data)}"
+    )
     travel_arrow(ax)
     return figure
 
@@ -213,7 +215,8 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
         mark_peak(ax, float(plan.x[column]), float(plan.y[row]), measure(float(opening[row, column])))
         splits = bool((codes == HORIZONTAL).all())
         title = "Planes that split, nearer to the horizontal" if splits else "Cracks to expect"
-        headline(ax, title, f"traces across the largest tensile strain, {reads}; first at the ring")
+        first = _first_beyond(data) or "; first at the ring"
+        headline(ax, title, f"traces across the largest tensile strain, {reads}{first}")
     else:
         empty_note(
             ax,
@@ -233,6 +236,22 @@ def _beyond(data: xr.Dataset) -> str:
         return ""
     x, y, strain = (float(data[f"worst_{name}"]) for name in ("x", "y", "strain"))
     return f";\n{measure(strain * MICRO)} microstrain beyond the map,\nat x = {1e3 * x:.0f} mm, y = {1e3 * y:.0f} mm"
+
+
+def _first_beyond(data: xr.Dataset) -> str:
+    """Where the first crack opens, if only smaller strains open cracks in the map; else empty."""
+    if "worst_strain" not in data:
+        return ""
+    inside = True
+    for name in ("x", "y"):
+        at, worst = data[name].to_numpy(), float(data[f"worst_{name}"])
+        cell = float(at[-1] - at[0]) / max(len(at) - 1, 1)
+        inside &= bool(at[0] - cell <= worst <= at[-1] + cell)
+    if inside:
+        return ""
+    x, y, strain = (float(data[f"worst_{name}"]) for name in ("x", "y", "strain"))
+    where = f"x = {1e3 * x:.0f} mm, y = {1e3 * y:.0f} mm"
+    return f";\nfirst beyond the map: {measure(strain * MICRO)} microstrain at {where}"
 
 
 def _decade(passes: float) -> str:

@@ -27,6 +27,9 @@ from treadload.response.superposition import merged
 BEYOND = 0.080
 """The basin is read this far from the cells of a footprint, m: nearly three deviations of its blur."""
 
+NEAR_SURFACE = 0.05
+"""To this depth, m, fields follow the surface, whose largest strain may lie in the basin around the wheels."""
+
 SHORTEST, LONGEST = 1.5, 10.0
 """How far around the wheels a basin is followed at least and at most, m."""
 

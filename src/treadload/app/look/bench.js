@@ -111,7 +111,13 @@ window.treadloadPut = (change) => {
 window.treadloadFly = (x, y) => {
   const place = maps(), half = 60;
   if (!place) return;
-  Plotly.relayout(place, { "xaxis.range": [x - half, x + half], "yaxis.range": [y + half, y - half] });
+  // A place beyond the map is shown together with the map.
+  const map = place._fullData[0], ends = ({ 0: first, length, [length - 1]: last }) => [first, last];
+  const [[left, right], [near, far]] = [ends(map.x), ends(map.y)];
+  const beyond = x < left || x > right || y < near || y > far;
+  const around = (at, low, high) => beyond ? [Math.min(low, at - half), Math.max(high, at + half)] : [at - half, at + half];
+  const [top, bottom] = around(y, near, far);
+  Plotly.relayout(place, { "xaxis.range": around(x, left, right), "yaxis.range": [bottom, top] });
   place.scrollIntoView({ block: "nearest" });
 };
 window.treadloadWhole = () => {
