@@ -72,7 +72,8 @@ def beyond_the_map(
     if not ends:
         return None
     *_, row, column = index_of_largest(values)
-    axes, kept = (y, x), _kept((y, x), (row, column))
+    axes: tuple[Array, ...] = (y, x)
+    kept = _kept((y, x), (row, column))
     most, more = max(float(np.nanmax(values)), floor), np.zeros((2, 2))
     enlargements = 0
     at, further_values = axes, values

@@ -89,13 +89,13 @@ class FieldBeyond:
             close.append((at > first - BEYOND) & (at < last + BEYOND))
         rows, columns = (within_reach & ~inside for within_reach, inside in zip(close, within, strict=True))
         if not near:
-            values[:, *np.ix_(*close)] = np.nan
+            values[:, close[0][:, None] & close[1]] = np.nan
         elif close[0].any() and close[1].any():
             # Above and below the map, then beside it.
             for at_y, at_x in ((rows, close[1]), (close[0] & within[0], columns)):
                 if at_y.any() and at_x.any():
-                    values[:, *np.ix_(at_y, at_x)] = self._near(x[at_x], y[at_y])
-        values[:, *np.ix_(*within)] = np.nan
+                    values[:, at_y[:, None] & at_x] = self._near(x[at_x], y[at_y]).reshape(len(depths), -1)
+        values[:, within[0][:, None] & within[1]] = np.nan
         return values
 
     def closely(self, x: Array, y: Array) -> Array:

@@ -174,10 +174,10 @@ def assess(
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
     of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
     depths closer to each other; the worst of all is the verdict, which says how deep it is. A response that already
-    is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well, on few points
-    and as far as it reaches; deeper down the field is solved further where the largest value of the map lies at its
-    end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the result; a warning
-    states the place if it is beyond the map, or that the largest still lies at the end.
+    is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well, on few
+    points and as far as it reaches; deeper down the field is solved further where the largest value of the map lies at
+    its end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the result; a
+    warning states the place if it is beyond the map, or that the largest still lies at the end.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
     shifted: True solves the contacts of the response once more, on cells half a cell beside, and reads both; where
