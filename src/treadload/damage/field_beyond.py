@@ -26,14 +26,14 @@ class FieldBeyond:
     response: with its road and loads. means: of that response; None for points at a depth. field: of its map.
     coarse: loads under which what lies `BEYOND` their cells is solved on few points and waves, to half a per cent;
     None where the quantity is no component of stress or strain.
-    known: exact values nearer to the loads, by the points at which they were evaluated.
+    exact_values: nearer to the loads, by the points at which they were evaluated.
     """
 
     response: Response
     means: Means | None
     field: Field
     coarse: list[SurfaceLoad] | None = None
-    known: dict[bytes, Array] = dataclass_field(default_factory=dict)
+    exact_values: dict[bytes, Array] = dataclass_field(default_factory=dict)
 
     @classmethod
     def of(cls, response: Response, means: Means | None, field: Field) -> FieldBeyond:
@@ -118,9 +118,9 @@ class FieldBeyond:
     def _near(self, x: Array, y: Array) -> Array:
         """Exact values, evaluated once for each set of points."""
         key = x.tobytes() + y.tobytes()
-        if key not in self.known:
-            self.known[key] = self.at(x, y).value
-        return self.known[key]
+        if key not in self.exact_values:
+            self.exact_values[key] = self.at(x, y).value
+        return self.exact_values[key]
 
     def _restrained(self, data: xr.Dataset) -> xr.Dataset:
         """Fields with the thermal stress that was added to the response."""

@@ -175,7 +175,7 @@ def assess(
     of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
     depths closer to each other; the worst of all is the verdict, which says how deep it is. A response that already
     is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well, on few
-    points and as far as it reaches; deeper down the field is solved further where the largest value of the map lies at
+    points and as far as it reaches; deeper down the field is solved further where the largest of the map lies at
     its end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the result; a
     warning states the place if it is beyond the map, or that the largest still lies at the end.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
