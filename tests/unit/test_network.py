@@ -15,6 +15,7 @@ import treadload as tl
 from sweeps import same
 from treadload.errors import InputError
 from treadload.life import contacts
+from treadload.life.seasons import warmed
 from treadload.reporting.network import network_tables
 from treadload.sweeps import open_sweep, read_sections, solve_network
 from treadload.sweeps.network.solution import bands
@@ -162,6 +163,34 @@ def test_sections_without_a_layer_are_solved_without_it(case, tmp_path):
     assert "0.5 km" in [row[2] for row in network_tables(data)[0].rows]
     opened = tl.open_results(tl.save_results(network, tmp_path / "n.nc")).network
     assert opened.text() == text
+
+
+SEASONAL = """[climate]
+seasons = [
+    { name = "thaw", share = 0.2, temperature = [5, 5, 5], factors = { base = 0.5, soil = 0.6 } },
+    { name = "rest", share = 0.8, temperature = 15 },
+]"""
+
+
+def test_what_a_climate_states_of_an_absent_layer_is_left_out():
+    climate = "climate = { temperature = 15 }"
+    mix = CASE.replace('material = { kind = "elastic", modulus = "5400 MPa", poisson = 0.35 }', 'mix = "EB-GB3"')
+    text = mix.replace(climate, SEASONAL)
+    whole = tl.Case.from_text(text).build_climate().seasons[0]
+    assert whole.factors == (("base", 0.5), ("soil", 0.6))
+    without = tl.Case.from_text(text.replace('"25 cm"', "0")).build_climate().seasons[0]
+    assert without.factors == (("soil", 0.6),)
+    assert without.temperature == (5.0, 5.0)
+    # The name of no layer is still refused.
+    wrong = tl.Case.from_text(text.replace('"25 cm"', "0").replace("factors = { base", "factors = { bass"))
+    with pytest.raises(InputError, match="factor of the layer 'bass'"):
+        warmed(wrong.road(), (), wrong.build_climate().seasons[0])
+    frost = """[climate]
+air = { months = [-9, -7, -1, 6, 12, 16, 19, 17, 12, 6, -1, -7] }
+parts_of_day = 1
+frost = { layers = { base = { water = 0.08 } } }"""
+    frozen = tl.Case.from_text(mix.replace(climate, frost).replace('"25 cm"', "0")).build_climate()
+    assert {name for season in frozen.seasons for name, _ in season.factors} == {"soil"}
 
 
 def test_a_layer_of_no_thickness_is_absent_in_any_case():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -124,6 +125,21 @@ class ClimatePart(Table):
             raise ValueError(f"{sorted(stray)[0]} belongs to a climate of weather; leave it out, or give file or air")
         return self
 
+    def without(self, absent: Mapping[int, str], count: int) -> ClimatePart:
+        """The climate of a road that lacks layers: less their factors, temperatures and moisture.
+
+        absent: names of these layers by their numbers in the table of the case, from 0. count: layers of that table.
+        """
+        changes: dict[str, object] = {}
+        if self.seasons is not None:
+            seasons = SEASONS.build(self.seasons)
+            changes["seasons"] = tuple(_without(season, absent, count) for season in seasons)
+        frost = FROST.build(self.frost)
+        if isinstance(frost, Frost):
+            layers = {name: water for name, water in frost.layers.items() if name not in absent.values()}
+            changes["frost"] = replace(frost, layers=layers)
+        return self.model_copy(update=changes)
+
     @property
     def has_weather(self) -> bool:
         """True where the road's temperatures follow from the weather."""
@@ -175,6 +191,14 @@ class ClimatePart(Table):
         if self.months is not None:
             return Climate.equal_parts(self.months, MONTHS)
         return Climate(SEASONS.build(self.seasons))
+
+
+def _without(season: Season, absent: Mapping[int, str], count: int) -> Season:
+    temperature = season.temperature
+    if isinstance(temperature, tuple) and len(temperature) == count:
+        temperature = tuple(value for number, value in enumerate(temperature) if number not in absent)
+    factors = tuple((name, value) for name, value in season.factors if name not in absent.values())
+    return replace(season, temperature=temperature, factors=factors)
 
 
 # A case is built more than once: the same objects make the same temperatures, whose year takes a second.

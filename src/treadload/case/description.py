@@ -106,7 +106,10 @@ class Description(FilePart):
         """The climate. Raises InputError for a case without."""
         if self.climate is None:
             raise InputError("'climate' is missing: give [climate], such as temperature = 15")
-        return self.climate.build(self.road(), self.folder, self.ageing)
+        climate = self.climate
+        if self._absent and self.pavement is not None:
+            climate = climate.without(self._absent, len(self.pavement.layers or ()))
+        return climate.build(self.road(), self.folder, self.ageing)
 
     def build_criteria(self) -> tuple[Judge, ...]:
         """The criteria on this road."""
