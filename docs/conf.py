@@ -80,8 +80,7 @@ html_theme_options = {
     "navbar_end": ["theme-switcher"],
     "navigation_with_keys": False,
     "show_prev_next": True,
-    # Wide code and its output need the place of the list of headings.
-    "secondary_sidebar_items": {"**": ["page-toc"], "tutorials/*": [], "coming_from/*": []},
+    "secondary_sidebar_items": ["page-toc"],
     "footer_start": ["copyright"],
     "footer_end": [],
     "header_links_before_dropdown": 7,

@@ -21,6 +21,8 @@ from sphinx.util import logging
 RUNNER = Path(__file__).with_name("page_runner.py")
 # Pictures of all pages, below the sources.
 FOLDER = "executed"
+# Wide code and its output need the place of the list of headings.
+WIDE = "---\nhtml_theme.sidebar_secondary.remove: true\n---\n\n"
 log = logging.getLogger(__name__)
 
 
@@ -55,7 +57,7 @@ def insert(app: Sphinx, name: str, source: list[str]) -> None:
     except RuntimeError as error:
         log.warning("a block of the page fails: %s", error, location=name)
         return
-    source[0] = with_outputs(source[0], outputs, f"/{FOLDER}/{name}")
+    source[0] = WIDE + with_outputs(source[0], outputs, f"/{FOLDER}/{name}")
 
 
 def with_outputs(page: str, outputs: list[Output], folder: str) -> str:
