@@ -171,11 +171,11 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
 
 
 def strain_in_numbers(data: xr.Dataset, strain: Strain, scale: Limits) -> str:
-    """Peak of a strain map and its place; says when the colours stop below it."""
+    """Peak of a strain map, which is that of a point, and its place; says when the colours stop below it."""
     plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     row, column = peak_of(values)
     place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"
-    return f"peak {values[row, column]:.1f} microstrain at {place}" + (
+    return f"peak {values[row, column]:.1f} microstrain at the point {place}" + (
         "; colours stop below" if scale.clipped else ""
     )
 
@@ -213,7 +213,8 @@ def depth_slice(
     colour_bar(mesh, ax, "microstrain", scale, beyond=name_layers(ax, section.layers, section.bottom))
     title = "Section along travel" if section.name == "x" else "Section across travel"
     detail = (
-        f"largest tensile strain, three-dimensional, at {section.cut_in_words}; peak {np.nanmax(section.values):.1f}"
+        f"largest tensile strain, three-dimensional, at {section.cut_in_words}; peak at a point "
+        f"{np.nanmax(section.values):.1f}"
     )
     detail += " microstrain" + ("; colours stop below" if scale.clipped else "")
     headline(ax, title, detail)
