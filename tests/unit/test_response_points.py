@@ -96,6 +96,21 @@ def test_lines_and_lone_points_make_the_list(seed):
 
     np.testing.assert_array_equal(points.gathered(plane, at_x, at_y)[0], 3 * at_x[columns] + 7 * at_y[rows])
     assert points.total(lambda x, y: np.array([len(x) * len(y)]), at_x, at_y) == 40
+    upright, level = points.halves
+    assert sorted([*upright.members, *level.members]) == list(range(40))
+    for half in (upright, level):
+        np.testing.assert_array_equal(half.rows[half.points.rows], rows[half.members])
+        np.testing.assert_array_equal(half.columns[half.points.columns], columns[half.members])
+
+
+def test_crossing_lines_need_no_grid():
+    x, y = np.array([*range(30), *[4] * 20]), np.array([*[7] * 30, *range(20)])
+    upright, level = Points.of(x, y)[0].halves
+    # The point where they cross stands in the list twice, on each line once or on the longer one of both.
+    assert list(upright.columns) == [4]
+    assert list(level.rows) == [7]
+    assert len(upright.rows) in (19, 20)
+    assert len(level.columns) == 30
 
 
 @pytest.mark.parametrize(

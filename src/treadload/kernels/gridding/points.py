@@ -33,6 +33,20 @@ class Group:
 
 
 @dataclass(frozen=True, eq=False)
+class Half:
+    """Some points of a list, as a list of the rows and columns that they need.
+
+    members: (n,) their places in the list. rows, columns: distinct, of y and of x. points: those members, by their
+    place in `rows` and `columns`.
+    """
+
+    members: Indices
+    rows: Indices
+    columns: Indices
+    points: Points
+
+
+@dataclass(frozen=True, eq=False)
 class Points:
     """A list of points. rows, columns: (n,) index into the distinct y and x.
 
@@ -72,6 +86,24 @@ class Points:
                     groups.append(Group(part, self.rows[part], self.columns[part[:1]]))
         alone = np.concatenate(left)
         return [*groups, Group(alone, self.rows[alone], self.columns[alone], True)] if len(alone) else groups
+
+    @cached_property
+    def halves(self) -> tuple[Half, Half]:
+        """The points on lines along y, cheapest summed along x first, and the rest, cheapest summed along y first."""
+        upright = np.zeros(len(self.rows), dtype=bool)
+        for group in self.groups:
+            upright[group.members] = not group.alone and len(group.columns) == 1
+        return self._half(upright), self._half(~upright)
+
+    def _half(self, chosen: Array) -> Half:
+        rows, at_row = np.unique(self.rows[chosen], return_inverse=True)
+        columns, at_column = np.unique(self.columns[chosen], return_inverse=True)
+        return Half(np.flatnonzero(chosen), rows, columns, Points(at_row, at_column))
+
+    @cached_property
+    def transposed(self) -> Points:
+        """The same points with rows and columns exchanged."""
+        return Points(self.columns, self.rows)
 
     def product(self, lines: Array, back: Array) -> Array:
         """The product of matrices lines (..., my, k) and back (k, mx) at the points, (..., 1, n)."""

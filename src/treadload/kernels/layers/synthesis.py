@@ -271,18 +271,38 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
 
 def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None) -> None:
     """Add a block to the sources (n, my, mx). back: (2, nky, my); out: (2, nkx, mx)."""
-    _, count, _, rows, columns = waves.shape
+    rows, columns = waves.shape[3:]
     to_y = back.reshape(2 * rows, -1).T
     my, mx = len(to_y), out.shape[2]
-    if at is None and mx * (2 * columns + my) < my * (2 * columns + mx * columns / rows):
+    if at is not None:
+        upright, level = at.halves
+        if len(upright.members):
+            lines = _along_x(waves, out[:, :, upright.columns]).swapaxes(1, 2)
+            total[..., upright.members] += upright.points.transposed.product(lines, to_y[upright.rows].T)
+        if len(level.members):
+            for part, matrix in zip(_along_y(waves, to_y[level.rows]), out[:, :, level.columns], strict=True):
+                total[..., level.members] += level.points.product(part, matrix)
+    elif mx * (2 * columns + my) < my * (2 * columns + mx * columns / rows):
         # Along x first, which is fewer products here.
-        lines = waves[0].reshape(-1, columns) @ out[0]
-        lines += waves[1].reshape(-1, columns) @ out[1]
-        total += to_y @ lines.reshape(count, 2 * rows, mx)
-        return
-    product = np.matmul if at is None else at.product
-    for part, matrix in zip(to_y @ waves.reshape(2, count, 2 * rows, columns), out, strict=True):
-        total += product(part, matrix)
+        total += to_y @ _along_x(waves, out)
+    else:
+        for part, matrix in zip(_along_y(waves, to_y), out, strict=True):
+            total += part @ matrix
+
+
+def _along_x(waves: Array, out: Array) -> Array:
+    """Waves summed along x, (n, 2 nky, mx)."""
+    _, count, _, rows, columns = waves.shape
+    lines: Array = waves[0].reshape(-1, columns) @ out[0]
+    lines += waves[1].reshape(-1, columns) @ out[1]
+    return lines.reshape(count, 2 * rows, -1)
+
+
+def _along_y(waves: Array, to_y: Array) -> Array:
+    """Cosine and sine parts along x of waves summed along y, (2, n, my, nkx)."""
+    _, count, _, rows, columns = waves.shape
+    lines: Array = to_y @ waves.reshape(2, count, 2 * rows, columns)
+    return lines
 
 
 def _components(
