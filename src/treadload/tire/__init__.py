@@ -1,6 +1,7 @@
 """The tire: scans, height maps and parametric treads to the gap that the contact solver takes."""
 
 from treadload.tire.belt import Belt, InflatedBelt, LateralBelt
+from treadload.tire.free_rolling import FreeRolling
 from treadload.tire.grooves import Groove, LateralGrooves, equal_ribs
 from treadload.tire.library import TireMesh, example_mesh
 from treadload.tire.magic_formula import MagicFormula, TireForces
@@ -13,6 +14,7 @@ from treadload.tire.wear import Wear
 
 __all__ = [
     "Belt",
+    "FreeRolling",
     "Groove",
     "GrooveMeasure",
     "HeightMapSurface",

@@ -30,7 +30,8 @@ from treadload.kernels.magic_formula import (
     words,
 )
 from treadload.rows import Row, row
-from treadload.tire.tir_file import TirText, read_tir
+from treadload.tire.free_rolling import FreeRolling, free_rolling
+from treadload.tire.tir_file import deflection_of, read_tir, remarks_of
 from treadload.tire.tir_writing import check_tir_name, tir_text
 
 Version = Literal["5.2", "6.1"]
@@ -161,8 +162,8 @@ class MagicFormula(Described):
             MappingProxyType({section: MappingProxyType(values) for section, values in numbers.items()}),
             side if side in ("left", "right") else "",
             Path(path).stem,
-            _deflection(text),
-            (*text.notes, *_remarks(text, version)),
+            deflection_of(text),
+            (*text.notes, *remarks_of(text)),
             combines_by_ellipse=(text.text("MODEL", "FE_METHOD") or "").casefold() == "yes",
         )
 
@@ -339,6 +340,24 @@ class MagicFormula(Described):
         formula = Formula(self.coefficients, Wheel(*state), self.nominal_load, self.unloaded_radius, self.is_newer)
         return abs(float(formula.along.friction)), abs(float(formula.across.friction))
 
+    def free_rolling(
+        self, normal_load: ArrayLike, *, inflation_pressure: ArrayLike | None = None, speed: ArrayLike | None = None
+    ) -> FreeRolling:
+        """Deflection, loaded and effective radius, and relaxation lengths of the upright tire rolling freely.
+
+        Arguments as in `forces`; speed: m/s, by which the tire grows. The deflection is that of VERTICAL_STIFFNESS
+        and Q_FZ2, not of a table. Raises InputError as `forces`, and for a file without VERTICAL_STIFFNESS.
+        """
+        load = _numbers("normal_load", normal_load)
+        if not (load > 0).all():
+            raise InputError(f"normal_load must be > 0 N, got {load.min():g}; a truck's wheel carries 20e3 to 60e3")
+        none = np.zeros(())
+        states = np.broadcast_arrays(load, none, none, none, self._pressure(inflation_pressure), self._speed(speed))
+        formula = Formula(
+            self.coefficients, Wheel(*states), self.nominal_load, self.unloaded_radius, self.is_newer
+        )
+        return free_rolling(self._flat, formula, self._words)
+
     def rows(self) -> tuple[Row, ...]:
         """Nominal state, friction and slopes at the nominal load."""
         load = self.nominal_load
@@ -366,25 +385,3 @@ def _numbers(name: str, values: ArrayLike) -> Array:
     if not np.isfinite(array).all():
         raise InputError(f"{name} must be finite, got {array[~np.isfinite(array)].flat[0]}")
     return array
-
-
-def _deflection(text: TirText) -> Array | None:
-    """Deflection and load of the table of a file, SI."""
-    rows = text.tables.get("DEFLECTION_LOAD_CURVE")
-    if rows is None:
-        return None
-    if any(len(line) != 2 for line in rows):
-        raise InputError(f"{text.where}: [DEFLECTION_LOAD_CURVE] must have two numbers in each row, pen and fz")
-    factors = text.factors()
-    curve: Array = np.array(rows).T * np.array([[factors["LENGTH"]], [factors["FORCE"]]])
-    return curve
-
-
-def _remarks(text: TirText, version: str) -> tuple[str, ...]:
-    """What a reader of the forces should know."""
-    remarks = []
-    if text.number("MODEL", "FITTYP") == 5:
-        remarks.append("FITTYP = 5 is version 5.0, whose coefficients are evaluated by the equations of 5.2")
-    if any("Default value" in comment for comment in text.comments):
-        remarks.append('a comment of the file marks part of the coefficients as "Default value": they are not fitted')
-    return tuple(remarks)

@@ -9,7 +9,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import numpy as np
+
 from treadload.errors import InputError, nearest
+from treadload.kernels.arrays import Array
 from treadload.kernels.magic_formula import DEFAULTS
 from treadload.units import PSI
 
@@ -218,6 +221,28 @@ def read_tir(path: str | os.PathLike[str]) -> TirText:
     if not draft.sections:
         raise InputError(f"{where} has no section such as [MODEL]; give a .tir file of the Magic Formula")
     return TirText(where, draft.sections, draft.tables, tuple(draft.comments), tuple(draft.notes))
+
+
+def deflection_of(text: TirText) -> Array | None:
+    """Deflection and load of the table of a file, SI."""
+    rows = text.tables.get("DEFLECTION_LOAD_CURVE")
+    if rows is None:
+        return None
+    if any(len(line) != 2 for line in rows):
+        raise InputError(f"{text.where}: [DEFLECTION_LOAD_CURVE] must have two numbers in each row, pen and fz")
+    factors = text.factors()
+    curve: Array = np.array(rows).T * np.array([[factors["LENGTH"]], [factors["FORCE"]]])
+    return curve
+
+
+def remarks_of(text: TirText) -> tuple[str, ...]:
+    """What a reader of the forces should know."""
+    remarks = []
+    if text.number("MODEL", "FITTYP") == 5:
+        remarks.append("FITTYP = 5 is version 5.0, whose coefficients are evaluated by the equations of 5.2")
+    if any("Default value" in comment for comment in text.comments):
+        remarks.append('a comment of the file marks part of the coefficients as "Default value": they are not fitted')
+    return tuple(remarks)
 
 
 @dataclass
