@@ -1,6 +1,7 @@
 """`treadload export`, `cite` and `as-python`."""
 
 import re
+from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
@@ -49,13 +50,15 @@ def test_what_cannot_be_exported_is_told_in_a_sentence(result, tmp_path):
     assert not list(tmp_path.iterdir())
 
 
-def test_cite_names_the_methods_of_a_result_a_case_or_the_program(result, tmp_path):
+def test_cite_names_the_methods_of_a_result_a_case_a_tire_or_the_program(result, tmp_path):
     case = tmp_path / "case.toml"
     case.write_text(COARSE_CASE, encoding="utf-8")
     # A road of mixes, which has no temperature before its seasons.
     design = tmp_path / "design.toml"
     design.write_text(first_case("life"), encoding="utf-8")
-    wanted = {(): {"treadload", "materials2021"}, (result,): {"kalker1990", "love1929"}, (case,): {"kalker1990"},
+    tire = Path(__file__).parents[1] / "data" / "tir" / "invented_6_1.tir"
+    wanted = {(tire,): {"pacejka2012", "besselink2010"}, (): {"treadload", "materials2021"},
+              (result,): {"kalker1990", "love1929"}, (case,): {"kalker1990"},
               (design,): {"kalker1990", "miner1945"}}  # fmt: skip
     for source, keys in wanted.items():
         done = call("cite", *source)

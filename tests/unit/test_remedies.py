@@ -201,6 +201,16 @@ def test_on_a_belt_the_next_tire_has_the_belt_of_its_size():
     assert found[0].design.tire.inflation_pressure == 820e3
 
 
+def test_the_next_tire_fits_the_same_vehicle():
+    def found(name):
+        tire = Tire.from_profile(name, inflation_pressure=820e3)
+        return remedies_of(replace(design(), tire=tire), RemedySteps(only=("tire",)))
+
+    assert found("335/65R22.5 tread")[0][0].design.tire.name == "315/80R22.5"
+    assert not found("205/60R15")[0]
+    assert "no other profile of about this radius" in str(found("205/60R15")[1])
+
+
 def test_measured_wander_is_stretched_about_its_mean():
     wander = Wander.measured([-0.1, 0.0, 0.3], [0.25, 0.5, 0.25])
     found, _ = remedies_of(design(traffic=replace(TRAFFIC, wander=wander)), RemedySteps(only=("wander",)))

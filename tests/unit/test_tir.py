@@ -55,6 +55,22 @@ WIDE_6_1 = [
     (1.4, 0.25, -0.3, 0, 1, 2850.44562, 3620.22307, 27.374941, 75.1419324, 90.4440618),
     (1, -0.3, -0.2, -0.02, 1.1, -2888.5673, 2086.05437, -0.282764605, 45.7537421, -39.9849371),
 ]
+# MFeval.jl (commit 23fd9ff7), calc_Re, _rho_Rl_61 and calc_relax translated line by line: load over the nominal one,
+# pressure over the nominal one, speed in m/s; deflection, loaded and effective radius, relaxation lengths, m.
+FREE_6_1 = [
+    (1.7, 1, 40.0, 0.0317156334, 0.285949963, 0.30733658, 0.366437395, 0.576665285),
+    (0.3, 0.8, 5.0, 0.00766321768, 0.3085357, 0.308402479, 0.0830640126, 0.27136623),
+    (1.4, 1, 5.0, 0.0287630298, 0.287436192, 0.306389986, 0.301609104, 0.568912458),
+    (1.4, 1, 16.7, 0.027971236, 0.288465447, 0.306627447, 0.301609104, 0.568912458),
+    (0.3, 1.15, 40.0, 0.00548750216, 0.312137794, 0.311579797, 0.0612886678, 0.193568977),
+    (0.6, 0.8, 16.7, 0.0145523307, 0.30188365, 0.307041192, 0.160600039, 0.466369861),
+]
+# The same program, version 5.2, of the textbook set: load over the nominal one, relaxation lengths, m.
+RELAXATION_5_2 = [
+    (0.5, 0.361399703, 0.252923077),
+    (1, 0.822, 0.453517241),
+    (1.6, 1.12600342, 0.597139614),
+]
 
 
 def textbook():
@@ -111,6 +127,70 @@ def test_wide_angles_differ_in_the_cosine_of_a_moment_only(witness):
     differences = off(invented(), witness)
     assert np.delete(differences, 2).max() < 1e-6
     assert differences[2] < 1e-5
+
+
+@pytest.mark.parametrize("witness", FREE_6_1)
+def test_free_rolling_of_6_1_is_that_of_an_independent_program(witness):
+    share, pressure, speed, *expected = witness
+    tire = invented()
+    out = tire.free_rolling(
+        share * tire.nominal_load, inflation_pressure=pressure * tire.nominal_pressure, speed=speed
+    )
+    found = [
+        out.deflection, out.loaded_radius, out.effective_rolling_radius, out.relaxation_length_x,
+        out.relaxation_length_y,
+    ]  # fmt: skip
+    # The program ends its iteration of the radius at 1e-9 m.
+    np.testing.assert_allclose(found, expected, rtol=1e-8)
+
+
+@pytest.mark.parametrize("witness", RELAXATION_5_2)
+def test_relaxation_of_5_2_is_that_of_an_independent_program(witness):
+    share, *expected = witness
+    out = textbook().free_rolling(share * 35e3)
+    np.testing.assert_allclose([out.relaxation_length_x, out.relaxation_length_y], expected, rtol=1e-8)
+    # Without Q_FZ2 the load is the stiffness times the deflection.
+    assert out.deflection == pytest.approx(share * 35e3 / 1e6, rel=1e-12)
+
+
+def test_deflection_is_a_root_of_the_load():
+    tire = invented()
+    c = {**tire.sections["VERTICAL"]}
+    load = np.linspace(500, 9e3, 9)
+    x = tire.free_rolling(load, speed=1e-9).deflection / tire.unloaded_radius
+    first = math.sqrt((c["VERTICAL_STIFFNESS"] * tire.unloaded_radius / 4e3) ** 2 - 4 * c["Q_FZ2"])
+    np.testing.assert_allclose((first * x + c["Q_FZ2"] * x**2) * 4e3, load, rtol=1e-7)
+    # The slope at the nominal load is the vertical stiffness.
+    near = tire.free_rolling([3999.0, 4001.0], speed=1e-9).deflection
+    assert 2 / float(np.diff(near)[0]) == pytest.approx(c["VERTICAL_STIFFNESS"], rel=1e-5)
+
+
+def test_free_rolling_asks_for_what_it_lacks(tmp_path):
+    def without(text):
+        return text.replace("VERTICAL_STIFFNESS = 200000\n", "").replace("LATERAL_STIFFNESS = 103000\n", "")
+
+    with pytest.raises(InputError, match="no VERTICAL_STIFFNESS above 0"):
+        MagicFormula.from_file(edited(tmp_path, without)).free_rolling(4e3)
+    half = MagicFormula.from_file(
+        edited(tmp_path, lambda text: text.replace("LATERAL_STIFFNESS = 103000\n", ""))
+    ).free_rolling(4e3)
+    assert half.relaxation_length_y is None
+    assert half.relaxation_length_x > 0
+    bent = edited(tmp_path, lambda text: text.replace("Q_FZ2 = 14.3", "Q_FZ2 = -40"))
+    with pytest.raises(InputError, match=r"cannot carry 20000 N: .* ends near 1\.03e\+04 N; give a smaller load"):
+        MagicFormula.from_file(bent).free_rolling([4e3, 20e3])
+    steep = edited(tmp_path, lambda text: text.replace("Q_FZ2 = 14.3", "Q_FZ2 = 80"))
+    with pytest.raises(InputError, match=r"Q_FZ2 must be 62\.8 at most .*Q_FZ2 = 80"):
+        MagicFormula.from_file(steep).free_rolling(4e3)
+    with pytest.raises(InputError, match="normal_load must be > 0 N, got 0"):
+        invented().free_rolling(0.0)
+
+
+def test_methods_of_a_tire_are_cited():
+    from treadload.citations import CITATIONS
+
+    assert "(2012)" in CITATIONS[textbook().cites()[0]]
+    assert [key for key in invented().cites() if "48(S1), 337-352" in CITATIONS[key]]
 
 
 def test_the_textbook_tire_has_the_stiffnesses_that_its_numbers_are_cited_with():

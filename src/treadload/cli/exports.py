@@ -74,14 +74,16 @@ def export(
 def cite(
     source: Annotated[
         Path | None,
-        typer.Argument(help="A case, .toml, or a result, .nc; left out, the program itself.", show_default=False),
+        typer.Argument(
+            help="A case, .toml, a result, .nc, or a tire, .tir; left out, the program itself.", show_default=False
+        ),
     ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="File to write, .bib; else it is printed.", show_default=False),
     ] = None,
 ) -> None:
-    """BibTeX of the program and of the methods that a case or a result really uses."""
+    """BibTeX of the program and of the methods that a case, a result or a tire file really uses."""
     from treadload.citations import references
     from treadload.files import check_suffix, write_whole
     from treadload.results.bibtex import bibtex, citations_of
@@ -94,6 +96,11 @@ def cite(
         from treadload.case import Case
 
         used = citations_of(Case.from_toml(source))
+    elif source.suffix.lower() == ".tir":
+        from treadload.tire.magic_formula import methods
+        from treadload.tire.tir_file import read_tir
+
+        used = references(methods(read_tir(source).version))
     else:
         from treadload.results import open_results
 

@@ -259,6 +259,10 @@ def tir(
         Path, typer.Argument(help="A case of `treadload run`: its tire, road, friction and speed are read.")
     ],
     loads: Annotated[str, typer.Option(help='Three loads of the wheel or more, "20 kN; 27.5 kN; 35 kN".')],
+    pressures: Annotated[
+        str | None,
+        typer.Option(help='Inflation pressures beside the tire\'s own, "7 bar; 9 bar"; one pressure if left out.'),
+    ] = None,
     output: Annotated[
         Path | None, typer.Option("--output", "-o", help="File to write, .tir.", show_default=False)
     ] = None,
@@ -287,12 +291,14 @@ def tir(
     if question.tire is None:
         raise InputError(f"{case} has a recorded footprint and no tire; a .tir file needs [tire]")
     forces = [quantity(part, "N") for part in loads.split(";")]
+    inflation = [] if pressures is None else [quantity(part, "Pa") for part in pressures.split(";")]
     with stages(shell.err, quiet=quiet) as tell:
         result = magic_formula(
             question.build_tire(),
             question.road(),
             question.build_rolling(),
             loads=forces,
+            pressures=inflation,
             reach=reach,
             spacing=question.spacing,
             progress=tell,

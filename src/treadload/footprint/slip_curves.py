@@ -27,8 +27,9 @@ _ANGLES = np.radians([2.0, 5.0])
 _SLIDES = 0.9
 # Creepage of free rolling across, beyond which a tire pulls to a side.
 _STRAIGHT = 1e-3
-# Largest factor of the slips: κ of 0.9.
+# Smallest and largest factor of the slips: κ of 0.09 and 0.9.
 REACH = (0.3, 3.0)
+WIDEST_SLIP, WIDEST_ANGLE = float(_ALONG[-1]), float(_ACROSS[-1])
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,7 +38,7 @@ class SlipCurve:
 
     kind: "along", "across" or "combined". normal_load: N. slip: κ, positive when driving. slip_angle: rad, positive
     when the wheel moves to the right. tractive_force, lateral_force: N. aligning_moment: N m. slip_fraction: share of
-    the contact that slips.
+    the contact that slips. inflation_pressure: Pa; None: the nominal one.
     """
 
     kind: Kind
@@ -48,17 +49,22 @@ class SlipCurve:
     lateral_force: Array
     aligning_moment: Array
     slip_fraction: Array
+    inflation_pressure: float | None = None
 
     @property
     def name(self) -> str:
-        """Kind and load, and the angle of combined slip."""
+        """Kind and load, the angle of combined slip, and the inflation pressure where it is not the nominal one."""
         angle = f" at {math.degrees(self.slip_angle[0]):g}°" if self.kind == "combined" else ""
-        return f"{self.kind}{angle}, {self.normal_load / 1e3:g} kN"
+        inflated = "" if self.inflation_pressure is None else f", {self.inflation_pressure / 1e3:g} kPa"
+        return f"{self.kind}{angle}, {self.normal_load / 1e3:g} kN{inflated}"
 
 
 @dataclass(frozen=True)
 class SlipSolver:
-    """Solves curves of a tire. rolling: friction and speed. reach: factor of all slips."""
+    """Solves curves of a tire. rolling: friction and speed. reach: factor of all slips.
+
+    inflation_pressure: that of the tire, Pa, where it is not the nominal one.
+    """
 
     tire: Tire
     road: Pavement
@@ -66,6 +72,7 @@ class SlipSolver:
     reach: float
     spacing: float | None
     progress: Progress | None
+    inflation_pressure: float | None = None
 
     def free(self, load: float) -> Contact:
         """The tire rolling freely under a load, N. Raises InputError for a tire that pulls to a side."""
@@ -127,14 +134,16 @@ class SlipSolver:
             self.tire, self.road, wheel, list(creepages), along="y" if kind == "across" else "x", spacing=self.spacing
         ).dataset
         names = ("tractive_force", "lateral_force", "aligning_moment", "slip_fraction")
-        return SlipCurve(kind, load, slips, angles, *(data[name].to_numpy() for name in names))
+        tractive, lateral, moment, fraction = (data[name].to_numpy() for name in names)
+        return SlipCurve(kind, load, slips, angles, tractive, lateral, moment, fraction, self.inflation_pressure)
 
     def _wheel(self, load: float) -> Rolling:
         return Rolling(normal_load=load, friction=self.rolling.friction, speed=self.rolling.speed)
 
     def _say(self, text: str) -> None:
         if self.progress is not None:
-            self.progress(text)
+            inflated = "" if self.inflation_pressure is None else f", {self.inflation_pressure / 1e3:g} kPa"
+            self.progress(text + inflated)
 
 
 def combined_loads(loads: Sequence[float]) -> list[float]:

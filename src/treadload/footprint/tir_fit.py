@@ -3,60 +3,62 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import ClassVar
 
 import numpy as np
 
-from treadload.contact import Rolling
+from treadload.contact import Contact, Rolling
 from treadload.contact.solvers.coupling import Progress
 from treadload.describing import Described
 from treadload.errors import InputError, within
-from treadload.footprint.slip_curves import REACH, SlipCurve, SlipSolver, combined_loads
-from treadload.footprint.tire_card import listed_loads
+from treadload.footprint.free_states import FreeState, free_state
+from treadload.footprint.slip_curves import (
+    REACH,
+    WIDEST_ANGLE,
+    WIDEST_SLIP,
+    SlipCurve,
+    SlipSolver,
+    combined_loads,
+)
+from treadload.footprint.tir_coefficients import (
+    ACROSS,
+    ACROSS_PRESSURE,
+    ALONG,
+    ALONG_PRESSURE,
+    CAMBER,
+    COMBINED,
+    INDUCED,
+    MOMENT,
+    MOMENT_PRESSURE,
+    ONE_SIDED,
+    PRESSED,
+    QUADRATIC_IN_PRESSURE,
+    RESISTANCE,
+    SPEEDS,
+    Bounds,
+    Draft,
+)
+from treadload.footprint.tir_sections import Sections, fit_sections
+from treadload.footprint.tire_card import listed_loads, listed_pressures
 from treadload.kernels.arrays import Array
-from treadload.kernels.magic_formula import ALIGNING, LATERAL, LONGITUDINAL, SCALES
+from treadload.kernels.magic_formula import ALIGNING, LATERAL, LONGITUDINAL, OVERTURNING, SCALES
 from treadload.pavement import Pavement
 from treadload.rows import Row, row
 from treadload.tire import MagicFormula, Tire
 from treadload.variables import Display
 
-Bounds = Mapping[str, tuple[float, float, float]]
-
-# Start, lowest and highest value of each coefficient, by the curves that decide it. Without bounds fits of solved
-# curves end at C or E that mean nothing; these hold whatever a pneumatic tire on a dry or wet road can have.
-_ALONG: Bounds = {
-    "PCX1": (1.2, 1, 2), "PDX1": (0.7, 0.05, 3), "PDX2": (0, -1, 1), "PEX1": (-2, -20, 1), "PEX2": (0, -20, 1),
-    "PEX3": (0, -20, 20), "PEX4": (0, -1, 1), "PKX1": (12, 1, 200), "PKX2": (0, -50, 50), "PKX3": (0, -3, 3),
-    "PHX1": (0, -0.02, 0.02), "PHX2": (0, -0.02, 0.02), "PVX1": (0, -0.05, 0.05), "PVX2": (0, -0.05, 0.05),
-}  # fmt: skip
-_ACROSS: Bounds = {
-    "PCY1": (1.5, 1, 2), "PDY1": (0.7, 0.05, 3), "PDY2": (0, -1, 1), "PEY1": (0.5, -20, 1), "PEY2": (0, -20, 1),
-    "PKY1": (-12, -200, -0.5), "PKY2": (1.5, 0.1, 20),
-}  # fmt: skip
-_MOMENT: Bounds = {
-    "QBZ1": (8, 0.5, 60), "QBZ2": (0, -50, 50), "QBZ3": (0, -50, 50), "QCZ1": (1.2, 0.5, 3), "QDZ1": (0.05, 0, 1),
-    "QDZ2": (0, -1, 1), "QEZ1": (0, -20, 1), "QEZ2": (0, -20, 20), "QEZ3": (0, -20, 20),
-}  # fmt: skip
-_COMBINED: Bounds = {
-    "RBX1": (8, 0.5, 60), "RBX2": (5, -60, 60), "RCX1": (1, 0.5, 2), "REX1": (-0.5, -20, 1), "REX2": (0, -20, 20),
-    "RBY1": (8, 0.5, 60), "RBY2": (5, -60, 60), "RCY1": (1, 0.5, 2), "REY1": (-0.5, -20, 1), "REY2": (0, -20, 20),
-}  # fmt: skip
-# Over loads on the rising side PKY4 and PKY2 trade off: any PKY4 of 0.5 to 2 fits as well with another PKY2.
-_UNDECIDED = {"PKY4": 2.0}
 _FEWEST = 3
 # Reference speed of a file whose solves had none, m/s: programs ask for one; no coefficient here depends on it.
 _SPEED = 16.7
-# Share of the load, rms, above which a curve is warned about, and of the width between bounds within which a
-# coefficient has ended at one of them.
-_GOOD, _AT_BOUND = 0.01, 1e-4
+# Share of the load, rms, above which a curve is warned about; of a deflection, radius, stiffness or moment.
+_GOOD, _GOOD_STATE = 0.01, 0.05
 _SHARE = Display("", "%", ".2f")
-_NOTES = (
-    "Fitted to contacts solved by treadload: upright, at one inflation pressure, symmetric to both sides. "
-    "Coefficients of camber, of the pressure, of ply steer and conicity, and of what combined slip adds to the "
-    "lateral force and the arm of the moment are 0; there are none of overturning and rolling resistance.",
+_SOLVED = (
+    "Fitted to contacts solved by treadload. LONGITUDINAL_STIFFNESS and LATERAL_STIFFNESS are those of the standing "
+    "tire, which slip stiffnesses are divided by for the relaxation lengths."
 )
 
 
@@ -66,8 +68,10 @@ class FittedFormula(Described):
 
     formula: version 6.1, ISO signs. curves: that were solved. residuals: of each curve by its name, and of it by
     variable ("tractive_force", "lateral_force", "aligning_moment"): rms of fit less solve over the load, of moments
-    over load times radius. undecided: coefficients that the curves do not decide, with the values at which they are
-    fixed. at_bounds: coefficients that ended at a bound of the fit. friction: of the solves, in words.
+    over load times radius. states: free rolling and standing, at each load and inflation pressure; state_residuals:
+    rms of what is fitted to them, over the solved value. undecided: coefficients that the curves do not decide, with
+    the defaults at which they are fixed. not_fitted: coefficients at their defaults, by the reason.
+    at_bounds: coefficients that ended at a bound of the fit. friction: of the solves, in words.
     """
 
     title: ClassVar[str] = "Magic Formula of a solved tire"
@@ -75,7 +79,10 @@ class FittedFormula(Described):
     formula: MagicFormula
     curves: tuple[SlipCurve, ...]
     residuals: Mapping[str, Mapping[str, float]]
+    states: tuple[FreeState, ...]
+    state_residuals: Mapping[str, float]
     undecided: Mapping[str, float]
+    not_fitted: Mapping[str, tuple[str, ...]]
     at_bounds: tuple[str, ...]
     friction: str
     solve_warnings: tuple[str, ...] = ()
@@ -103,14 +110,31 @@ class FittedFormula(Described):
             for variable, value in values.items()
             if value > _GOOD
         ]
+        poor += [
+            f"the {name.replace('_', ' ')} is fitted to {100 * value:.1f} %, more than {100 * _GOOD_STATE:g} %: "
+            "narrow the loads or the inflation pressures"
+            for name, value in self.state_residuals.items()
+            if value > _GOOD_STATE
+        ]
         ends = [f"{', '.join(self.at_bounds)} ended at a bound of the fit"] if self.at_bounds else []
         return (*poor, *ends, *self.solve_warnings)
+
+    def cites(self) -> tuple[str, ...]:
+        """Methods, keys of `treadload.citations.CITATIONS`: of the formula and of the solves."""
+        return (*self.formula.cites(), "influence", "convolution", "normal", "preconditioner", "rolling", "newton")
 
     def rows(self) -> tuple[Row, ...]:
         """Slopes and friction of the formula, and the residual of each curve."""
         rows = [line for line in self.formula.rows() if line.key != "nominal_pressure"]
         fixed = ", ".join(f"{name} = {value:g}" for name, value in self.undecided.items())
-        rows.append(row("undecided", fixed, label="fixed, as the curves leave it open"))
+        rows.append(row("undecided", fixed or "none", label="fixed, as the curves leave them open"))
+        rows += [row("not_fitted", ", ".join(names), label=reason) for reason, names in self.not_fitted.items()]
+        rows += [
+            row(
+                name, value, group="rms of what is fitted, free rolling", display=_SHARE, label=name.replace("_", " ")
+            )
+            for name, value in self.state_residuals.items()
+        ]
         for name, values in self.residuals.items():
             rows += [
                 row(variable, values.get(variable, math.nan), group=f"rms, {name}", label=label, display=_SHARE)
@@ -137,6 +161,7 @@ def magic_formula(
     rolling: Rolling,
     *,
     loads: Sequence[float] | Array,
+    pressures: Sequence[float] | Array = (),
     reach: float = 1.0,
     spacing: float | None = None,
     progress: Progress | None = None,
@@ -144,12 +169,15 @@ def magic_formula(
     """Coefficients of the Magic Formula 6.1 of a tire, fitted to its solved curves over slip.
 
     rolling: friction and speed; its load, forces and creepages are not read. loads: of the wheel, N, three or more,
-    distinct; the middle one is the nominal load. Curves along travel (κ to ±0.3) and across (to 14°) at each load,
-    combined slip (κ to ±0.25 at 2° and 5°) at the smallest, the middle and the largest. reach: factor of these slips
-    and angles, 0.3 to 3. spacing, progress: as in `solve_contact`.
-    Raises InputError for fewer loads, a tire without a radius, that leans or that pulls to a side, curves that never
-    slide, and as `solve_contact`.
-    Source: Pacejka (2012), Tire and Vehicle Dynamics, section 4.3; bounded least squares.
+    distinct; the middle one is the nominal load. pressures: inflation pressures beside that of the tire, which is the
+    nominal one, Pa; two or more for a quadratic influence. Curves along travel (κ to ±0.3) and across (to 14°) at
+    each load, combined slip (κ to ±0.25 at 2° and 5°) at the smallest, the middle and the largest; at other pressures
+    curves along and across at these three. reach: factor of these slips and angles, 0.3 to 3. spacing, progress: as
+    in `solve_contact`. Deflection, effective radius, stiffnesses of the standing tire and, where the tread is
+    viscoelastic, rolling resistance are fitted to the same loads and pressures.
+    Raises InputError for fewer loads, pressures of a tire that does not depend on them, a tire without a radius, that
+    leans or that pulls to a side, curves that never slide, and as `solve_contact`.
+    Source: Pacejka (2012), Tire and Vehicle Dynamics, section 4.3; Besselink et al. (2010); bounded least squares.
     """
     forces = listed_loads(loads)
     if len(forces) < _FEWEST:
@@ -158,6 +186,7 @@ def magic_formula(
             'give such as [20e3, 27.5e3, 35e3] N ("20 kN; 27.5 kN; 35 kN")'
         )
     within("reach", reach, *REACH, "", "1 solves slips of up to 0.3")
+    inflation = _other_pressures(tire, pressures)
     radius = tire.outer_radius
     if radius is None:
         raise InputError("this tire has no outer radius, to which moments refer; give a profile or a scan")
@@ -166,101 +195,152 @@ def magic_formula(
             f"the tire leans by {math.degrees(tire.camber):.3g}°, and curves of an upright tire are fitted; stand it "
             "upright, with camber = 0"
         )
-    solver = SlipSolver(tire, road, rolling, reach, spacing, progress)
-    free = [solver.free(load) for load in forces]
-    creepages = {load: float(contact.dataset["creepage_x"]) for load, contact in zip(forces, free, strict=True)}
-    curves = [curve for load in forces for curve in solver.pure(load, creepages[load])]
-    curves += [curve for load in combined_loads(forces) for curve in solver.combined(load, creepages[load])]
+    curves: list[SlipCurve] = []
+    states: list[FreeState] = []
+    free: list[Contact] = []
+    for pressure in (None, *inflation):
+        inflated = tire if pressure is None else replace(tire, inflation_pressure=pressure)
+        solver = SlipSolver(inflated, road, rolling, reach, spacing, progress, pressure)
+        at_ends = combined_loads(forces)
+        for load in forces if pressure is None else at_ends:
+            contact = solver.free(load)
+            creepage = float(contact.dataset["creepage_x"])
+            free.append(contact)
+            states.append(free_state(inflated, road, load, contact, radius, spacing))
+            curves += solver.pure(load, creepage)
+            curves += solver.combined(load, creepage) if pressure is None and load in at_ends else []
     if progress is not None:
         progress("fitting")
-    approaches = [float(contact.dataset["approach"]) for contact in free]
-    deflection = np.array([[0.0, *approaches], [0.0, *forces]])
-    draft = _Draft(tire, radius, forces[len(forces) // 2], deflection, rolling.speed or _SPEED)
-    for bounds, kind, variables in (
-        (_ALONG, "along", ("tractive_force",)),
-        (_ACROSS, "across", ("lateral_force",)),
-        (_MOMENT, "across", ("aligning_moment",)),
-        (_COMBINED, "combined", ("tractive_force", "lateral_force")),
-    ):
-        draft.fit(bounds, [curve for curve in curves if curve.kind == kind], variables)
-    formula = draft.formula()
+    draft = Draft(forces[len(forces) // 2], radius, tire.inflation_pressure)
+    alone = QUADRATIC_IN_PRESSURE if len(inflation) == 1 else ()
+    for bounds, pressed, kind, variables in _STAGES:
+        more = {name: numbers for name, numbers in pressed.items() if inflation and name not in alone}
+        draft.fit({**bounds, **more}, [curve for curve in curves if curve.kind == kind], variables)
+    sections = fit_sections(states, draft.nominal_load, radius, tire.inflation_pressure)
+    draft.undecided["BREFF"] = sections.vertical["BREFF"]
+    absent = _absent(len(inflation), has_resistance=bool(sections.rolling))
+    depths = np.array([(state.deflection, state.normal_load) for state in states[: len(forces)]]).T
+    formula = MagicFormula(
+        "6.1",
+        "ISO",
+        _frozen(_sections(draft, sections, rolling, [tire.inflation_pressure, *inflation], depths[1], reach)),
+        "",
+        tire.name,
+        np.column_stack([[0.0, 0.0], depths]),
+        (_SOLVED, *_remarks(draft.undecided, absent)),
+    )
     residuals = {
-        curve.name: MappingProxyType(
-            {name: float(np.sqrt(np.mean(_off(formula, curve, name) ** 2))) for name in _READ[curve.kind]}
-        )
+        curve.name: {name: float(np.sqrt(np.mean(_off(formula, curve, name) ** 2))) for name in _READ[curve.kind]}
         for curve in curves
     }
     return FittedFormula(
         formula,
         tuple(curves),
-        MappingProxyType(residuals),
-        MappingProxyType(dict(_UNDECIDED)),
+        _frozen(residuals),
+        tuple(states),
+        MappingProxyType(dict(sections.residuals)),
+        MappingProxyType(draft.undecided),
+        MappingProxyType(absent),
         tuple(draft.at_bounds),
         str(rolling.law),
         tuple(dict.fromkeys(text for contact in free for text in contact.warnings)),
     )
 
 
-class _Draft:
-    """Coefficients as fitted so far."""
+# Bounds, those beside them where several inflation pressures are solved, and the curves that decide.
+_STAGES: tuple[tuple[Bounds, Bounds, str, tuple[str, ...]], ...] = (
+    (ALONG, ALONG_PRESSURE, "along", ("tractive_force",)),
+    (ACROSS, ACROSS_PRESSURE, "across", ("lateral_force",)),
+    (MOMENT, MOMENT_PRESSURE, "across", ("aligning_moment",)),
+    (COMBINED, {}, "combined", ("tractive_force", "lateral_force")),
+)
 
-    def __init__(self, tire: Tire, radius: float, nominal_load: float, deflection: Array, speed: float) -> None:
-        self._tire, self._radius, self._load, self._deflection = tire, radius, nominal_load, deflection
-        self._speed = speed
-        starts = {name: start for part in (_ALONG, _ACROSS, _MOMENT, _COMBINED) for name, (start, *_) in part.items()}
-        self._values: dict[str, float] = starts | _UNDECIDED
-        self.at_bounds: list[str] = []
 
-    def fit(self, bounds: Bounds, curves: Sequence[SlipCurve], variables: Sequence[str]) -> None:
-        """Fit coefficients within bounds to variables of curves, each over its load."""
-        from scipy.optimize import least_squares
+def _other_pressures(tire: Tire, pressures: Sequence[float] | Array) -> list[float]:
+    """Inflation pressures beside that of the tire, Pa, sorted. Raises InputError."""
+    if len(pressures) == 0:
+        return []
+    listed = listed_pressures(pressures)
+    nominal = tire.inflation_pressure
+    if nominal is None or tire.material is not None:
+        what = "has no inflation pressure" if nominal is None else f"is of {tire.material} whatever its inflation"
+        raise InputError(
+            f"the tire {what}, so that {len(listed)} pressures decide nothing; leave pressures out, or give "
+            "inflation_pressure and a belt"
+        )
+    return [pressure for pressure in listed if pressure != nominal]
 
-        names = list(bounds)
-        start, low, high = np.array([bounds[name] for name in names]).T
 
-        def off(values: Array) -> Array:
-            self._values.update(zip(names, values.tolist(), strict=True))
-            formula = self.formula()
-            return np.concatenate([_off(formula, curve, name) for curve in curves for name in variables])
+def _absent(pressures: int, *, has_resistance: bool) -> dict[str, tuple[str, ...]]:
+    """Coefficients that nothing was solved for, by the reason."""
+    absent = {
+        "0, as the tire is upright": CAMBER,
+        "0, as the tire has neither ply steer nor conicity": ONE_SIDED,
+        "0, as forces that combined slip adds are not fitted": INDUCED,
+        "absent, as no overturning moment is solved": tuple(OVERTURNING),
+    }
+    if pressures == 0:
+        absent["0, as one inflation pressure is solved"] = PRESSED
+    elif pressures == 1:
+        absent["0, as one inflation pressure beside the nominal one is solved"] = QUADRATIC_IN_PRESSURE
+    if has_resistance:
+        absent["0, as one speed of free rolling is solved"] = SPEEDS
+    else:
+        absent["absent, as an elastic tread does not resist rolling"] = RESISTANCE
+    return absent
 
-        # x_scale "jac": coefficients differ by four orders of magnitude.
-        best = least_squares(off, start, bounds=(low, high), x_scale="jac", max_nfev=400)
-        off(best.x)
-        near = np.minimum(best.x - low, high - best.x) < _AT_BOUND * (high - low)
-        self.at_bounds += [name for name, is_near in zip(names, near, strict=True) if is_near]
 
-    def formula(self) -> MagicFormula:
-        """The formula of the present coefficients."""
+def _remarks(undecided: Mapping[str, float], absent: Mapping[str, tuple[str, ...]]) -> Iterable[str]:
+    """Comments of a file."""
+    yield "Fixed, as the curves leave them open: " + ", ".join(
+        f"{key} = {value:g}" for key, value in undecided.items()
+    )
+    for reason, names in absent.items():
+        yield f"{reason[0].upper()}{reason[1:]}: {', '.join(names)}."
 
-        def part(names: Sequence[str]) -> Mapping[str, float]:
-            return MappingProxyType({name: float(self._values.get(name, 0.0)) for name in names})
 
-        pressure = self._tire.inflation_pressure
-        loads = self._deflection[1]
-        sections: dict[str, Mapping[str, float]] = {
-            "MODEL": {"LONGVL": self._speed},
-            "DIMENSION": {"UNLOADED_RADIUS": self._radius},
-            "OPERATING_CONDITIONS": {"NOMPRES": pressure, "INFLPRES": pressure} if pressure else {},
-            "VERTICAL": {"FNOMIN": self._load, "VERTICAL_STIFFNESS": self._stiffness()},
-            "VERTICAL_FORCE_RANGE": {"FZMIN": float(loads[1]), "FZMAX": float(loads[-1])},
-            "SCALING_COEFFICIENTS": dict.fromkeys(SCALES, 1.0),
-            "LONGITUDINAL_COEFFICIENTS": part(LONGITUDINAL),
-            "LATERAL_COEFFICIENTS": part(LATERAL),
-            "ALIGNING_COEFFICIENTS": part(ALIGNING),
-        }
-        kept = MappingProxyType({name: MappingProxyType(dict(values)) for name, values in sections.items()})
-        return MagicFormula("6.1", "ISO", kept, "", self._tire.name, self._deflection, _NOTES)
+def _sections(
+    draft: Draft,
+    fitted: Sections,
+    rolling: Rolling,
+    pressures: Sequence[float | None],
+    loads: Array,
+    reach: float,
+) -> Mapping[str, Mapping[str, float]]:
+    """Sections of the file. pressures: the nominal one first."""
 
-    def _stiffness(self) -> float:
-        """Slope of the load over the deflection at the nominal load, N/m: of a parabola through zero."""
-        depth, loads = self._deflection[:, 1:]
-        first, second = np.linalg.lstsq(np.column_stack([depth, depth**2]), loads, rcond=None)[0]
-        return float(first + 2 * second * np.interp(self._load, loads, depth))
+    def part(names: Sequence[str]) -> Mapping[str, float]:
+        return {name: float(draft.values.get(name, 0.0)) for name in names}
+
+    inflation = [pressure for pressure in pressures if pressure is not None]
+    slip, angle = reach * WIDEST_SLIP, reach * WIDEST_ANGLE
+    return {
+        "MODEL": {"LONGVL": rolling.speed or _SPEED},
+        "DIMENSION": {"UNLOADED_RADIUS": draft.radius},
+        "OPERATING_CONDITIONS": {"NOMPRES": inflation[0], "INFLPRES": inflation[0]} if inflation else {},
+        "VERTICAL": fitted.vertical,
+        "STRUCTURAL": fitted.structural,
+        "INFLATION_PRESSURE_RANGE": {"PRESMIN": min(inflation), "PRESMAX": max(inflation)} if inflation else {},
+        "VERTICAL_FORCE_RANGE": {"FZMIN": float(loads[0]), "FZMAX": float(loads[-1])},
+        "LONG_SLIP_RANGE": {"KPUMIN": -slip, "KPUMAX": slip},
+        "SLIP_ANGLE_RANGE": {"ALPMIN": -angle, "ALPMAX": angle},
+        "SCALING_COEFFICIENTS": dict.fromkeys(SCALES, 1.0),
+        "LONGITUDINAL_COEFFICIENTS": part(LONGITUDINAL),
+        "LATERAL_COEFFICIENTS": part(LATERAL),
+        "ROLLING_COEFFICIENTS": fitted.rolling,
+        "ALIGNING_COEFFICIENTS": part(ALIGNING),
+    }
+
+
+def _frozen(table: Mapping[str, Mapping[str, float]]) -> Mapping[str, Mapping[str, float]]:
+    return MappingProxyType({name: MappingProxyType(dict(values)) for name, values in table.items()})
 
 
 def _off(formula: MagicFormula, curve: SlipCurve, variable: str) -> Array:
     """Fit less solve over the load; of moments over load times radius. (n,)."""
-    out = formula.forces(curve.normal_load, slip=curve.slip, slip_angle=curve.slip_angle)
+    out = formula.forces(
+        curve.normal_load, slip=curve.slip, slip_angle=curve.slip_angle, inflation_pressure=curve.inflation_pressure
+    )
     scale = curve.normal_load * (formula.unloaded_radius if variable == "aligning_moment" else 1.0)
     off: Array = (getattr(out, variable) - getattr(curve, variable)) / scale
     return off

@@ -95,7 +95,7 @@ def tire_card(
     Sources of terms: ISO 8855:2011; Pacejka (2012), Tire and Vehicle Dynamics, chapters 1 and 5.
     """
     forces = listed_loads(loads)
-    inflation = [tire.inflation_pressure or math.nan] if pressures is None else _listed("pressures", pressures, "Pa")
+    inflation = [tire.inflation_pressure or math.nan] if pressures is None else listed_pressures(pressures)
     if len(inflation) > 1 and tire.material is not None:
         raise InputError(
             f"this tire is a half-space of {tire.material} whatever its inflation: the {len(inflation)} pressures "
@@ -214,6 +214,11 @@ def _shares(contact: Contact, edges: Array) -> Array:
 def listed_loads(loads: Sequence[float] | Array) -> list[float]:
     """Loads of the wheel, N, sorted. Raises InputError for none, for equal ones, and for those that are not > 0."""
     return _listed("loads", loads, "N")
+
+
+def listed_pressures(pressures: Sequence[float] | Array) -> list[float]:
+    """Inflation pressures, Pa, sorted. Raises InputError as `listed_loads`."""
+    return _listed("pressures", pressures, "Pa")
 
 
 def _listed(name: str, values: Sequence[float] | Array, unit: str) -> list[float]:

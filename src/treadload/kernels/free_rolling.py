@@ -25,7 +25,14 @@ _ROUNDS = 20
 
 
 def deflection(
-    c: Mapping[str, float], share: Array, pressure: Array, spin: Array, *, stiffness: float, radius: float, load: float
+    c: Mapping[str, float],
+    share: Array,
+    pressure: Array,
+    spin: Array,
+    *,
+    stiffness: float,
+    radius: float,
+    load: float,
 ) -> Array:
     """Vertical deflection ρ, m, of a tire that rolls freely: the root of F_z(ρ) (equations 2 to 4).
 
@@ -43,7 +50,14 @@ def deflection(
 
 
 def radii(
-    c: Mapping[str, float], share: Array, pressure: Array, speed: Array, *, stiffness: float, radius: float, load: float
+    c: Mapping[str, float],
+    share: Array,
+    pressure: Array,
+    speed: Array,
+    *,
+    stiffness: float,
+    radius: float,
+    load: float,
 ) -> tuple[Array, Array, Array]:
     """Radius R_Ω of the free spinning tire, effective rolling radius R_e, m, and ω R_0 over the reference speed.
 

@@ -13,11 +13,15 @@ from treadload.plots.kit.style import CASES, MUTED, headline, open_axes, styled
 
 # Points of a line between the ends of a curve.
 _FINE = 301
+# Opacity of curves at other inflation pressures than the nominal one.
+_PALE = 0.35
 
 
 @styled
 def tir_fit(fit: FittedFormula) -> Figure:
     """Forces over the load and moments of solves (points) and of the fitted formula (lines), by load.
+
+    Curves at other inflation pressures than the nominal one are pale.
 
     Panels: along travel, across, aligning moment, and both slips together. Returns the figure.
     """
@@ -26,7 +30,7 @@ def tir_fit(fit: FittedFormula) -> Figure:
     loads = sorted({curve.normal_load for curve in fit.curves})
     for curve in fit.curves:
         color = CASES[loads.index(curve.normal_load) % len(CASES)]
-        label = f"{curve.normal_load / 1e3:g} kN"
+        label = "" if curve.inflation_pressure else f"{curve.normal_load / 1e3:g} kN"
         if curve.kind == "across":
             _draw(across, fit, curve, "lateral_force", color, label)
             _draw(moment, fit, curve, "aligning_moment", color, label)
@@ -69,6 +73,8 @@ def _draw(
     scale = 1.0 if variable == "aligning_moment" else curve.normal_load * (-1 if variable == "lateral_force" else 1)
     over = ("slip_angle", np.degrees(angle)) if curve.kind == "across" else ("slip", slip)
     at = np.degrees(fine[over[0]]) if over[0] == "slip_angle" else fine[over[0]]
-    line = getattr(fit.formula.forces(curve.normal_load, **fine), variable)
-    ax.plot(at, line / scale, label=label or None, lw=1.3, ls=dash, color=color)
-    ax.plot(over[1], getattr(curve, variable) / scale, "o", ms=3.5, mew=0, color=color)
+    pressure = curve.inflation_pressure
+    line = getattr(fit.formula.forces(curve.normal_load, **fine, inflation_pressure=pressure), variable)
+    alpha = 1.0 if pressure is None else _PALE
+    ax.plot(at, line / scale, label=label or None, lw=1.3, ls=dash, color=color, alpha=alpha)
+    ax.plot(over[1], getattr(curve, variable) / scale, "o", ms=3.5, mew=0, color=color, alpha=alpha)

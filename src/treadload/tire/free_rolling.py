@@ -33,7 +33,7 @@ class FreeRolling:
 
 def free_rolling(numbers: Mapping[str, float], formula: Formula, name: str) -> FreeRolling:
     """State of free rolling. numbers: of the file by key, SI. name: of the tire, for errors. Raises InputError."""
-    c = DEFAULTS | numbers
+    c = {**DEFAULTS, **numbers}
     stiffness = numbers.get("VERTICAL_STIFFNESS", 0.0)
     if not stiffness > 0:
         raise InputError(f"{name} has no VERTICAL_STIFFNESS above 0, from which radii follow; write it, in N/m")
@@ -43,10 +43,15 @@ def free_rolling(numbers: Mapping[str, float], formula: Formula, name: str) -> F
     free, effective, spin = radii(c, share, pressure, formula.wheel.speed, **size)
     depth = deflection(c, share, pressure, spin, **size)
     if not np.isfinite(depth).all():
-        raise InputError(
-            f"{name} cannot carry {float(load[~np.isfinite(depth)].max()):g} N: with VERTICAL_STIFFNESS = "
-            f"{stiffness:g} N/m and Q_FZ2 = {c['Q_FZ2']:g} its load over the deflection is lower; give a smaller load"
+        first = (stiffness * radius / nominal) ** 2 - 4 * c["Q_FZ2"]
+        largest = nominal * max(first, 0.0) / (4 * abs(c["Q_FZ2"]))
+        what = (
+            f"cannot carry {float(load[~np.isfinite(depth)].max()):g} N: its parabola of the load ends near "
+            f"{largest:.3g} N; give a smaller load"
+            if first >= 0
+            else f"has no deflection: Q_FZ2 must be {(stiffness * radius / nominal) ** 2 / 4:.3g} at most"
         )
+        raise InputError(f"{name} {what} (VERTICAL_STIFFNESS = {stiffness:g} N/m, Q_FZ2 = {c['Q_FZ2']:g})")
     along, across = _relaxation(c, numbers, formula)
     return FreeRolling(depth, free - depth, effective, along, across)
 
@@ -58,7 +63,7 @@ def _relaxation(
     if not formula.is_newer:
         if not all(numbers.get(key) for key in ("PTX1", "PTY1", "PTY2")):
             return None, None
-        terms = dict.fromkeys(_OLDER, 0.0) | {"LSGKP": 1.0, "LSGAL": 1.0} | numbers
+        terms = {**dict.fromkeys(_OLDER, 0.0), "LSGKP": 1.0, "LSGAL": 1.0, **numbers}
         scale = formula.c["LFZO"]
         return older_relaxation(
             terms, formula.wheel.load, nominal_load=formula.nominal_load, scale=scale, radius=formula.radius

@@ -226,6 +226,10 @@ class MagicFormula(Described):
         """Name, version and signs."""
         return f"{self.name or 'a tire'}, version {self.version}, {self.signs} signs"
 
+    def cites(self) -> tuple[str, ...]:
+        """Where its equations were published: keys of `treadload.citations.CITATIONS`."""
+        return methods(self.version)
+
     def mirrored(self) -> MagicFormula:
         """The same tire on the opposite side of the vehicle: ply steer and conicity change their side."""
         opposite = {"left": "right", "right": "left"}.get(self.side, "")
@@ -353,9 +357,7 @@ class MagicFormula(Described):
             raise InputError(f"normal_load must be > 0 N, got {load.min():g}; a truck's wheel carries 20e3 to 60e3")
         none = np.zeros(())
         states = np.broadcast_arrays(load, none, none, none, self._pressure(inflation_pressure), self._speed(speed))
-        formula = Formula(
-            self.coefficients, Wheel(*states), self.nominal_load, self.unloaded_radius, self.is_newer
-        )
+        formula = Formula(self.coefficients, Wheel(*states), self.nominal_load, self.unloaded_radius, self.is_newer)
         return free_rolling(self._flat, formula, self._words)
 
     def rows(self) -> tuple[Row, ...]:
@@ -375,6 +377,11 @@ class MagicFormula(Described):
             "pneumatic_trail": aligning / cornering,
         }
         return tuple(row(key, value) for key, value in values.items() if value is not None)
+
+
+def methods(version: str) -> tuple[str, ...]:
+    """Where the equations of a version were published: keys of `treadload.citations.CITATIONS`."""
+    return ("magic formula", "inflation pressure of tires") if version == "6.1" else ("magic formula",)
 
 
 def _numbers(name: str, values: ArrayLike) -> Array:

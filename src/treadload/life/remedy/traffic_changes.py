@@ -23,6 +23,8 @@ from treadload.tire.tread import ProfileSurface
 _ANY_TEMPERATURE = 15.0
 # Round-off of a speed that is one step.
 _SAME = 1e-9
+# Radii of tires that stand for each other differ by less than this part.
+_ALIKE = 0.2
 
 
 def more_wander(design: Design, steps: RemedySteps) -> Iterator[Change]:
@@ -178,13 +180,15 @@ def _wider(wander: Wander, step: float) -> Wander:
 
 def _next_tire(tire: Tire) -> Tire:
     """The tire on the catalogue's next profile; on a belt, on the belt of its size. Raises InputError."""
-    profiles = [name for name in tires if isinstance(tires[name], TreadProfile)]
+    radii = {name: shape.rolling_radius for name, shape in tires.items() if isinstance(shape, TreadProfile)}
     present = tire.surface.profile.name if isinstance(tire.surface, ProfileSurface) else ""
-    if present not in profiles:
+    if present not in radii:
         raise InputError("the tread is none of the catalogue's profiles; give tire in the steps")
+    # A car's tire does not fit a truck.
+    profiles = [name for name, radius in radii.items() if abs(radius / radii[present] - 1) < _ALIKE]
     following = profiles[(profiles.index(present) + 1) % len(profiles)]
     if following == present:
-        raise InputError("the catalogue has no other profile; give tire in the steps")
+        raise InputError("the catalogue has no other profile of about this radius; give tire in the steps")
     belt: Belt | None = None
     if tire.belt is not None:
         size = next((name for name in belts if following.startswith(name)), None)
