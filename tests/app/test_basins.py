@@ -77,6 +77,19 @@ def test_a_drop_shows_what_the_result_holds(moduli):
     assert figures["basin"].layout.title.text.startswith("<b>km 2</b>, 50 kN: misfit")
 
 
+def test_a_law_is_shown_with_its_factor():
+    granular = tl.materials.StressDependent(tl.materials.KTheta(150e6, 0.5), sublayer=0.1)
+    road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.1, name="asphalt"), tl.Layer(granular, 0.3, name="base"),
+        tl.Layer(tl.Elastic(6e7, 0.4), name="soil")])  # fmt: skip
+    bowls = 1e-6 * np.array([[900, 640, 404, 178], [1400, 1005, 645, 288]])
+    drops = Basins(bowls, np.array([0, 0.3, 0.6, 1.2]), np.array([50e3, 80e3]), 0.15, station=("a", "a"))
+    result = tl.backcalculate(drops, road)
+    rows = {row["key"]: row["value"] for row in basin_rows(result, 1)}
+    factor = float(result.dataset["law_factor"][1, 1])
+    assert rows["law:base"].startswith(f"{factor:.3g} times its law")
+    assert "law:soil" not in rows
+
+
 def test_moduli_along_the_road_have_their_bars(moduli):
     drawn, data = moduli_profile(moduli, 3), moduli.dataset
     base = [trace for trace in drawn.data if trace.name == "base"]

@@ -80,6 +80,10 @@ def basin_rows(result: Backcalculation, drop: int) -> list[PageRow]:
         )
         rows.append(_row(f"modulus:{layer}", layer, modulus_in_words(modulus), "Moduli"))
         rows.append(_row(f"interval:{layer}", "", bars, "Moduli"))
+        factor = float(one_layer["law_factor"]) if "law_factor" in one_layer else math.nan
+        if math.isfinite(factor):
+            text = f"{factor:.3g} times its law; the modulus is that at θ = 150 kPa, q = 75 kPa"
+            rows.append(_row(f"law:{layer}", "", text, "Moduli"))
         if math.isfinite(deep):
             rows.append(_row(f"thickness:{layer}", f"thickness of {layer}", f"{1e3 * deep:.4g} mm", "Layers"))
     if math.isfinite(float(at["stiff_depth"])):
