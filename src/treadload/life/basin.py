@@ -11,6 +11,7 @@ import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.life.wheels import Wheels
 from treadload.response.basin import BEYOND
+from treadload.response.several import without_indexes
 
 # Points of a basin stand this far apart, m, and half as far within so much of the wheels; readings between two of
 # them follow splines.
@@ -77,7 +78,7 @@ def _onto(data: xr.Dataset, across: Array, along: Array, y: Array, x: Array) -> 
         name: (field.dims, across @ (field.to_numpy().astype(np.float32) @ along.T), field.attrs)
         for name, field in data.data_vars.items()
     }
-    return xr.Dataset(fields, {"depth": data["depth"], "y": y, "x": x})
+    return xr.Dataset(fields, without_indexes(data["depth"].to_numpy(), y, x))
 
 
 def _graded(low: float, high: float, wheels: Array) -> Array:

@@ -18,7 +18,7 @@ from treadload.response.fields import COMPONENTS, tensor_fields
 from treadload.response.layered import View
 from treadload.response.loads import PlacedLoad, UniformRectangle
 from treadload.response.material import windows
-from treadload.response.several import Loads, Question, all_spread, answers
+from treadload.response.several import Loads, Question, all_spread, answers, without_indexes
 from treadload.response.solution import Response
 from treadload.response.superposition import merged
 
@@ -131,9 +131,7 @@ def _dataset(
     fields: Mapping[str, tuple[tuple[str, ...], Array]], depths: Array, x: Array, y: Array, length: float
 ) -> xr.Dataset:
     """As `variables.dataset` makes it, but without indexes, which cost as much as the fields of few points."""
-    at = {"depth": depths, "y": y, "x": x}
-    coordinates = {name: xr.Variable((name,), values, variables.attributes(name)) for name, values in at.items()}
-    places = xr.Coordinates(coordinates, indexes={})
+    places = without_indexes(depths, y, x)
     tensors = {name: xr.Variable(dims, values, variables.attributes(name)) for name, (dims, values) in fields.items()}
     return xr.Dataset(tensors, places, {"mean_over": length})
 

@@ -86,9 +86,9 @@ def needed_fields(
     questions: Sequence[Question], solved: Sequence[Answer], x: Array, y: Array, wanted: Container[str]
 ) -> list[xr.Dataset]:
     """Wanted components of stress and strain, over (depth, y, x), of what was solved for each question."""
-    # Coordinates are made once: many small fields cost less than they.
+    # Coordinates are made once, and without indexes: many small fields cost less than they.
     places = {
-        depths: variables.dataset({}, {"depth": list(depths), "y": y, "x": x}).coords
+        depths: without_indexes(np.array(depths), y, x)
         for depths in {tuple(question.depths.tolist()) for question in questions}
     }
     tensors = [tensor_fields(answer.fields.stress, answer.fields.strain) for answer in solved]
@@ -99,6 +99,13 @@ def needed_fields(
         )
         for question, fields in zip(questions, tensors, strict=True)
     ]
+
+
+def without_indexes(depths: Array, y: Array, x: Array) -> xr.Coordinates:
+    """Coordinates of fields (depth, y, x), m, whose indexes would cost as much as fields of few points."""
+    at = {"depth": depths, "y": y, "x": x}
+    named = {name: xr.Variable((name,), values, variables.attributes(name)) for name, values in at.items()}
+    return xr.Coordinates(named, indexes={})
 
 
 def components_of(needs: Iterable[str]) -> list[int] | None:
