@@ -18,16 +18,21 @@ from treadload.tire.library import tires
 
 # Of rubber: what the tutorials and the warning of a contact give.
 POISSON = 0.495
+# Radius of a tire, m, below which it is a car's.
+SMALLEST_TRUCK = 0.4
 
 
 def catalogue_sections() -> list[Section]:
     """Sections of the treads of the catalogue that have ribs and a belt of their name, for cells of the default size.
 
     The "335/65R22.5 tread" is left out: two of its ribs are joined by a shallow groove, and such a table takes 18 MB.
+    So is the car tire, whose tables are made at its first use.
     """
     sections = []
     for name, tread in tires.items():
         if not isinstance(tread, TreadProfile) or tread.lateral or not tread.grooves or name not in belts:
+            continue
+        if tread.rolling_radius < SMALLEST_TRUCK:
             continue
         belt = tl.tire.Belt.from_library(name)
         tire = tl.Tire.from_profile(name, inflation_pressure=820e3, belt=belt, tread="ribs")
