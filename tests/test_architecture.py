@@ -35,6 +35,7 @@ LEAVES = (
     "composing",
     "registry",
     "rows",
+    "us_units",
     "named",
     "read",
     "metrology",

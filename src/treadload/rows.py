@@ -14,6 +14,7 @@ from typing import SupportsFloat, TypedDict
 
 import numpy as np
 
+from treadload.us_units import display_units, in_display_units, us_unit
 from treadload.variables import SCALES, Display, display_of
 
 _WIDEST, _LONGEST = 34, 26
@@ -29,6 +30,10 @@ class Place:
     depth: float | None = None
 
     def __str__(self) -> str:
+        inch = us_unit("mm")
+        if inch is not None:
+            deep = "" if self.depth is None else f", {inch.number(self.depth):.4g} in deep"
+            return f"x = {inch.number(self.x):z.3f} in, y = {inch.number(self.y):z.3f} in{deep}"
         deep = "" if self.depth is None else f", {self.depth * 1e3:.4g} mm deep"
         return f"x = {_mm(self.x)} mm, y = {_mm(self.y)} mm{deep}"
 
@@ -59,13 +64,26 @@ class Row:
             return self.value
         if math.isnan(self.value):
             return "–"
-        return self.form(self.value) if callable(self.form) else format(self.value * SCALES[self.unit], self.form)
+        if callable(self.form):
+            return in_display_units(self.form(self.value), self.value, self.key)
+        us = us_unit(self.unit, self.key)
+        if us is not None:
+            return us.text(self.value, self.form)
+        return format(self.value * SCALES[self.unit], self.form)
+
+    @property
+    def shown_unit(self) -> str:
+        """The unit of `number`; empty where the number stands with its unit, has none or is a text."""
+        if callable(self.form) or isinstance(self.value, str):
+            return ""
+        us = us_unit(self.unit, self.key)
+        return self.unit if us is None else us.symbol
 
     @property
     def text(self) -> str:
         """The value with its unit."""
-        bare = isinstance(self.value, str) or callable(self.form) or not self.unit or math.isnan(self.value)
-        return self.number if bare else f"{self.number} {self.unit}"
+        bare = not self.shown_unit or isinstance(self.value, str) or math.isnan(self.value)
+        return self.number if bare else f"{self.number} {self.shown_unit}"
 
     @property
     def sentence(self) -> str:
@@ -159,7 +177,7 @@ def table_of(block: Sequence[Sequence[Row]], write: Callable[[Row, bool], str] =
     """
     heads, columns = [""], [[members[0].group for members in block]]
     for column in zip(*block, strict=True):
-        units = {"" if callable(member.form) or isinstance(member.value, str) else member.unit for member in column}
+        units = {member.shown_unit for member in column}
         unit = units.pop() if len(units) == 1 else ""
         heads.append(f"{column[0].label}, {unit}" if unit else column[0].label)
         columns.append([write(shown, bool(unit)) for shown in column])
@@ -173,7 +191,8 @@ def notes_of(block: Sequence[Sequence[Row]]) -> list[str]:
 
 def as_json(rows: Iterable[Row]) -> str:
     """Rows as a text that a file holds."""
-    return json.dumps([_plain(line) for line in rows], ensure_ascii=False)
+    with display_units("si"):
+        return json.dumps([_plain(line) for line in rows], ensure_ascii=False)
 
 
 def from_json(text: object) -> tuple[Row, ...]:

@@ -44,6 +44,32 @@ def refused(result, code, *words):
 
 
 @pytest.mark.slow
+def test_summary_and_report_in_us_units(case, tmp_path):
+    plain, ran = (call(*options, "run", case, "--quiet") for options in ((), ("--units", "us")))
+    assert ran.exit_code == 0, ran.output
+    rows = re.compile(r"(?m)^(?!warning|written)(peak pressure|normal load|approach|tractive force) +(\S+) (\S+)")
+    si, us = ({label: (float(n), unit) for label, n, unit in rows.findall(r.stdout)} for r in (plain, ran))
+    assert list(us) == list(si)
+    assert {unit for _, unit in us.values()} == {"psi", "kip", "in", "lbf"}
+    assert us["normal load"][0] * 4.4482216152605 == pytest.approx(si["normal load"][0], abs=1e-3)
+    # Files stay in SI units: the file of the second run, in US units, is that of the first.
+    tree = open_results(tmp_path / "case.nc").tree
+    assert "kPa" in tree["contact"].attrs["rows"]
+    assert "psi" not in tree["contact"].attrs["rows"]
+    reported = CliRunner().invoke(
+        app, ["report", str(tmp_path / "case.nc"), "-o", str(tmp_path / "r.html")], env={"TREADLOAD_UNITS": "us"}
+    )
+    assert reported.exit_code == 0, reported.output
+    page = (tmp_path / "r.html").read_text()
+    assert "psi" in page
+    assert not re.search(r"<td[^>]*>[-\u2212\d.\s]+ (kPa|mm|kN|MPa)\s*</td>", page)
+
+
+def test_unknown_units_are_an_error(case):
+    refused(call("--units", "imperial", "run", case), 2, "si or us", "'imperial'")
+
+
+@pytest.mark.slow
 def test_run_then_report(case, tmp_path):
     ran = call("run", case)
     assert ran.exit_code == 0, ran.output

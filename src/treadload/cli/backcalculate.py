@@ -52,5 +52,5 @@ def backcalculate(
             if state is None
             else f"what was solved is kept in {state}; the same command goes on from there"
         ) from None
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     shell.written(write(to_tree(result), path))

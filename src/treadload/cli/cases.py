@@ -106,7 +106,7 @@ def _answer(
     hooks: dict[str, Any] = {"stage": progress, "count": count}
     result = run_case(case, progress=Progress(**{key: hook for key, hook in hooks.items() if hook}), **options)
     # What was computed is told before the disk can refuse it.
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     shell.written(write(result.to_tree(), path))
 
 

@@ -61,6 +61,7 @@ app.add_typer(studies.app, name="study")
 
 
 @app.callback(invoke_without_command=True)
+@shell.one_sentence
 def _root(
     version: Annotated[bool, typer.Option("--version", help="Print the version and exit.")] = False,
     ascii_only: Annotated[
@@ -73,7 +74,15 @@ def _root(
             callback=ending.set_ascii,
         ),
     ] = False,
+    units: Annotated[
+        str,
+        typer.Option(
+            help="Units of the numbers in summaries and reports: si or us. Files of results stay in SI units.",
+            envvar="TREADLOAD_UNITS",
+        ),
+    ] = "si",
 ) -> None:
+    shell.choose_units(units)
     if version:
         shell.out.print(f"treadload {__version__}")
         raise typer.Exit(ending.DONE)

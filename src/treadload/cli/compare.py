@@ -109,5 +109,5 @@ def compare(
     shell.check_files(output, report)
     with stages(shell.err, quiet=quiet) as tell:
         comparison = compare_files(result, footprint, tell, recording, agreement)
-    shell.out.print(comparison.summary(), markup=False)
+    shell.summarise(comparison)
     shell.write_files(comparison, output, report, f"{result.name} and {footprint.name}", quiet=quiet)

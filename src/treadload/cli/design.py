@@ -56,5 +56,5 @@ def design(
             between=(quantity(search.low, "m"), quantity(search.high, "m")), step=quantity(search.step, "m"),
             workers=workers, progress=tell,
         )  # fmt: skip
-    shell.out.print(designed.summary(), markup=False)
+    shell.summarise(designed)
     shell.written(write(to_tree(designed, case=question, road=designed.road.at_temperature(15.0)), path))

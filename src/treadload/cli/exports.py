@@ -57,7 +57,7 @@ def export(
 
     if discs is not None:
         equivalents = equivalent_discs(chosen(Contact), discs)
-        shell.out.print(equivalents.summary(), markup=False)
+        shell.summarise(equivalents)
         files: tuple[Path, ...] = (equivalents.write_csv(output),)
     elif suffix in VTK:
         kinds = (Response,) if suffix == ".vtr" else (Contact, Response)

@@ -64,7 +64,7 @@ def field(
     if json:
         shell.plain(f"{as_json(result.rows())}\n")
     else:
-        shell.out.print(result.summary(), markup=False)
+        shell.summarise(result)
     shell.write_files(result, output, report, f"What roads show: {sections.name}", quiet=quiet)
 
 

@@ -79,7 +79,7 @@ def network(
             question, listed, store=solving.store or sections.with_suffix(".zarr"), jobs=solving.jobs,
             scheduler=solving.scheduler, progress=tell,
         )  # fmt: skip
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     title = f"Network: {question.title or sections.stem}"
     shell.write_files(result, output, page if result.ranked else None, title, quiet=quiet)
     if not result.ranked:

@@ -34,5 +34,6 @@ def report(
             label = str(tree.attrs.get("title") or file.stem)
             trees[label if label not in trees else f"{label} ({file.stem})"] = tree
         tell("drawing")
-        write_report(trees, path, title=title or " and ".join(trees))
+        with shell.in_chosen_units():
+            write_report(trees, path, title=title or " and ".join(trees))
     shell.out.print(f"written: {path}", markup=False)

@@ -7,8 +7,9 @@ import functools
 import inspect
 import sys
 from collections.abc import Callable, Iterable, Iterator
+from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Annotated, NoReturn, ParamSpec, get_type_hints
+from typing import TYPE_CHECKING, Annotated, NoReturn, ParamSpec, get_type_hints
 
 import typer
 from rich.console import Console
@@ -19,6 +20,9 @@ from treadload.cli import ending
 from treadload.cli.ending import FAILED, WRONG
 from treadload.cli.progress import stages
 from treadload.errors import TreadloadError, WriteError
+
+if TYPE_CHECKING:
+    from treadload.describing import Described
 
 _P = ParamSpec("_P")
 
@@ -65,6 +69,33 @@ DryRun = Annotated[bool, typer.Option("--dry-run", help="Check the case and list
 def names() -> Column:
     """A column of names that a case can copy: never broken into lines."""
     return Column("name", no_wrap=True)
+
+
+class _Chosen:
+    """Options of the whole program. units: of display, "si" or "us"."""
+
+    units = "si"
+
+
+def choose_units(system: str) -> None:
+    """Set the units of summaries and reports for the command that follows. Raises InputError for an unknown word."""
+    from treadload.us_units import check_system
+
+    _Chosen.units = "si"
+    _Chosen.units = check_system(system)
+
+
+def in_chosen_units() -> AbstractContextManager[None]:
+    """Where rows are shown in the units of `choose_units`."""
+    from treadload.us_units import display_units
+
+    return display_units(_Chosen.units)
+
+
+def summarise(result: Described) -> None:
+    """Print the summary of a result, in the units of `choose_units`."""
+    with in_chosen_units():
+        out.print(result.summary(), markup=False)
 
 
 def with_options(command: Callable[..., None]) -> Callable[..., None]:
@@ -154,7 +185,8 @@ def write_files(result: object, output: Path | None, report: Path | None, title:
 
         with stages(err, quiet=quiet) as tell:
             tell("drawing")
-            page = write_page(result, report, title=title)
+            with in_chosen_units():
+                page = write_page(result, report, title=title)
         written([page])
 
 

@@ -21,7 +21,7 @@ def summary(store: Store) -> None:
     """What was varied, how many cases are solved, why others failed, and the range of the results."""
     from treadload.sweeps import open_sweep
 
-    shell.out.print(open_sweep(store).summary(), markup=False)
+    shell.summarise(open_sweep(store))
 
 
 def table(
@@ -61,7 +61,8 @@ def report(
         tell("reading")
         study = open_sweep(store)
         tell("drawing")
-        write_page(study, path, title=title or f"Study: {study.case.title or store.stem}")
+        with shell.in_chosen_units():
+            write_page(study, path, title=title or f"Study: {study.case.title or store.stem}")
     shell.written([path])
 
 

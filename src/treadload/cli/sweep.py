@@ -138,7 +138,7 @@ def sweep(
             question, design, fields=fields or (), store=path, jobs=workers.jobs, in_threads=workers.in_threads,
             scheduler=workers.scheduler, progress=tell,
         )  # fmt: skip
-    shell.out.print(study.summary(), markup=False)
+    shell.summarise(study)
     shell.written([path])
     if not study.stats["solved"]:
         raise typer.Exit(ending.FAILED)

@@ -206,7 +206,7 @@ def _measured(
     with stages(shell.err, quiet=quiet) as tell:
         tell(stage)
         result = measure()
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     if output is not None:
         shell.written(write(result.dataset, output))
     if figure is not None:
@@ -250,7 +250,7 @@ def card(
             spacing=question.spacing,
             progress=tell,
         )
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     shell.write_files(result, output, report, f"Tire card: {question.title or case.stem}", quiet=quiet)
 
 
@@ -303,7 +303,7 @@ def tir(
             spacing=question.spacing,
             progress=tell,
         )
-    shell.out.print(result.summary(), markup=False)
+    shell.summarise(result)
     if output is not None:
         shell.written([result.formula.to_file(output)])
     if figure is not None:

@@ -64,7 +64,7 @@ def _rows(columns: Sequence[Mapping[str, StatedRow]], note: str = "") -> Iterato
     for key in dict.fromkeys(key for column in columns for key in column):
         cells = [column.get(key) for column in columns]
         stated = [cell for cell in cells if cell is not None]
-        units = {"" if callable(row.form) or isinstance(row.value, str) else row.unit for row in stated}
+        units = {row.shown_unit for row in stated}
         unit, remark = (values.pop() if len(values) == 1 else "" for values in (units, {row.note for row in stated}))
         label = stated[0].label
         values = tuple(MISSING if row is None else typeset(row, bare=bool(unit)) for row in cells)
