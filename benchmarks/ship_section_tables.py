@@ -12,28 +12,19 @@ import treadload as tl
 from treadload.contact.bodies.section_tables import ship, shipped_path
 from treadload.contact.contact_grid import DEFAULT_SPACING
 from treadload.kernels.sections import Section
-from treadload.tire import TreadProfile
-from treadload.tire.belt import belts
-from treadload.tire.library import tires
 
 # Of rubber: what the tutorials and the warning of a contact give.
 POISSON = 0.495
-# Radius of a tire, m, below which it is a car's.
-SMALLEST_TRUCK = 0.4
+# Treads whose tables travel with the package: two of 1.6 MB. The other ribbed treads of the catalogue, the car's too,
+# would bring two or more of the same size each; they are solved at first use, within a minute or so, and kept in the
+# user's cache.
+SHIPPED = ("315/80R22.5",)
 
 
 def catalogue_sections() -> list[Section]:
-    """Sections of the treads of the catalogue that have ribs and a belt of their name, for cells of the default size.
-
-    The "335/65R22.5 tread" is left out: two of its ribs are joined by a shallow groove, and such a table takes 18 MB.
-    So is the car tire, whose tables are made at its first use.
-    """
+    """Sections of the ribs of the treads in SHIPPED on the belt of their name, for cells of the default size."""
     sections = []
-    for name, tread in tires.items():
-        if not isinstance(tread, TreadProfile) or tread.lateral or not tread.grooves or name not in belts:
-            continue
-        if tread.rolling_radius < SMALLEST_TRUCK:
-            continue
+    for name in SHIPPED:
         belt = tl.tire.Belt.from_library(name)
         tire = tl.Tire.from_profile(name, inflation_pressure=820e3, belt=belt, tread="ribs")
         sections += [group.section.for_cells(DEFAULT_SPACING) for group in tire.ribs]

@@ -206,7 +206,10 @@ def test_the_next_tire_fits_the_same_vehicle():
         tire = Tire.from_profile(name, inflation_pressure=820e3)
         return remedies_of(replace(design(), tire=tire), RemedySteps(only=("tire",)))
 
-    assert found("335/65R22.5 tread")[0][0].design.tire.name == "315/80R22.5"
+    assert found("335/65R22.5 tread")[0][0].design.tire.name == "385/65R22.5"
+    # The last of the trucks, not the aircraft's of about the same radius, which comes next by name.
+    assert found("445/50R22.5")[0][0].design.tire.name == "11R22.5"
+    assert not found("H44.5x16.5-21")[0]
     assert not found("205/60R15")[0]
     assert "no other profile of about this radius" in str(found("205/60R15")[1])
 

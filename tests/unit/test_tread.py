@@ -61,7 +61,7 @@ def test_library_tolerates_spelling_and_says_what_there_is():
     assert tires["315_80r22.5"] == tires["315/80 R22.5"]
     with pytest.raises(InputError, match=r"did you mean '315/80R22\.5'"):
         tires["315/70R22.5"]
-    with pytest.raises(InputError, match=r"known are 315/80R22\.5"):
+    with pytest.raises(InputError, match=r"known are .*315/80R22\.5"):
         tires["bicycle"]
 
 

@@ -32,7 +32,8 @@ class TreadProfile:
     the tire, m. width: of the tread, m; there is no material beyond. shoulder_radius: rounding where the
     tread turns into a vertical sidewall, m, tangent to both; 0 for a square shoulder. grooves, lateral: cut
     into it; where two meet, the deeper one counts. name, source, notes: free text.
-    doubts: what is not certain about it, a sentence each.
+    doubts: what is not certain about it, a sentence each. vehicle: kind that the tire is for, e.g. "truck or bus";
+    a remedy by another tire stays within one kind.
     Raises InputError when a number is out of bounds or a groove leaves the tread.
     """
 
@@ -46,6 +47,7 @@ class TreadProfile:
     source: str = ""
     notes: str = ""
     doubts: tuple[str, ...] = ()
+    vehicle: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grooves", tuple(self.grooves))

@@ -180,15 +180,23 @@ def _wider(wander: Wander, step: float) -> Wander:
 
 def _next_tire(tire: Tire) -> Tire:
     """The tire on the catalogue's next profile; on a belt, on the belt of its size. Raises InputError."""
-    radii = {name: shape.rolling_radius for name, shape in tires.items() if isinstance(shape, TreadProfile)}
+    treads = {name: shape for name, shape in tires.items() if isinstance(shape, TreadProfile)}
     present = tire.surface.profile.name if isinstance(tire.surface, ProfileSurface) else ""
-    if present not in radii:
+    if present not in treads:
         raise InputError("the tread is none of the catalogue's profiles; give tire in the steps")
-    # A car's tire does not fit a truck.
-    profiles = [name for name, radius in radii.items() if abs(radius / radii[present] - 1) < _ALIKE]
+    # A car's tire does not fit a truck, and an aircraft's is inflated to twice the pressure.
+    radius, vehicle = treads[present].rolling_radius, treads[present].vehicle
+    profiles = [
+        name
+        for name, shape in treads.items()
+        if shape.vehicle == vehicle and abs(shape.rolling_radius / radius - 1) < _ALIKE
+    ]
     following = profiles[(profiles.index(present) + 1) % len(profiles)]
     if following == present:
-        raise InputError("the catalogue has no other profile of about this radius; give tire in the steps")
+        raise InputError(
+            "the catalogue has no other profile of about this radius for the same kind of vehicle; give tire in the "
+            "steps"
+        )
     belt: Belt | None = None
     if tire.belt is not None:
         size = next((name for name in belts if following.startswith(name)), None)
