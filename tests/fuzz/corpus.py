@@ -46,7 +46,7 @@ crown_radius = 1.2
 width = 0.2
 shoulder_radius = 0.01
 name = "lugs"
-grooves = [{ centre = 0.0, width = 0.01, depth = 0.01, wall_angle = 0.1, edge_radius = 0.001 }]
+grooves = [{ centre = 0.0, width = 0.01, depth = 0.01, wall_angle = 0.1, edge_radius = 0.001, tie_bar = 0.002 }]
 lateral = [
     { pitch = 0.08, width = 0.02, depth = 0.01, angle = 0.3, y_range = [-0.1, -0.02], offset = 0.01 },
     { pitch = 0.08, width = 0.02, depth = 0.01, angle = -0.3, y_range = [0.02, 0.1] },

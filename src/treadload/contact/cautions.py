@@ -13,6 +13,7 @@ from treadload.materials import Elastic
 from treadload.plausible import doubt, load_doubt
 from treadload.tire import Tire
 from treadload.tire.belt import belt_doubt
+from treadload.tire.cross_section import TreadSection
 from treadload.tire.modulus import modulus_doubt
 from treadload.tire.surface import HeightMapSurface
 from treadload.tire.undertread import UNDERTREAD
@@ -25,6 +26,9 @@ _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip
 _MEAN_OVER_INFLATION = (0.6, 1.6)
 # Least Poisson's ratio of rubber that keeps its volume.
 _RUBBER = 0.49
+# Grooves that are shallower than this part of the tread's thickness may close: below a truck's pressure the faces of
+# ribs sink by 4 % of it, and rubber rises between them.
+_MAY_CLOSE = 0.1
 
 
 def of_tire(tire: Tire) -> list[str]:
@@ -51,6 +55,8 @@ def of_tire(tire: Tire) -> list[str]:
             f"as well; rubber has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
         )
     section = tire.cross_section if tire.tread == "ribs" else None
+    if section is not None and tire.belt is not None:
+        warnings += [*of_tie_bars(section), *_of_shallow_grooves(section, tire.ribs[0].section.height)]
     if section is not None and section.measured:
         warnings += section.caveats
         if tire.undertread is None:
@@ -60,6 +66,32 @@ def of_tire(tire: Tire) -> list[str]:
                 "is known"
             )
     return warnings
+
+
+def of_tie_bars(section: TreadSection) -> list[str]:
+    """That tie bars are taken as continuous along travel, with what bounds their effect."""
+    tied = [channel for channel in section.channels if channel.tie_bar > 0]
+    if not tied:
+        return []
+    heights = sorted({round(channel.tie_bar * 1e3, 3) for channel in tied})
+    return [
+        f"tie bars of {' and '.join(f'{height:g}' for height in heights)} mm in {len(tied)} of "
+        f"{len(section.channels)} grooves are taken as continuous along travel: an upper bound of the stiffness of "
+        "bars that are interrupted; tie_bar = 0 gives the lower bound"
+    ]
+
+
+def _of_shallow_grooves(section: TreadSection, thickness: float) -> list[str]:
+    """That the road may reach the bottom of a groove, which carries no pressure. thickness: of the tread, m."""
+    shallowest = min(section.channels, key=lambda channel: channel.clear_depth, default=None)
+    if shallowest is None or shallowest.clear_depth >= _MAY_CLOSE * thickness:
+        return []
+    bottom = "tie bar" if shallowest.tie_bar > 0 else "floor"
+    return [
+        f"the groove at y = {shallowest.centre * 1e3:g} mm is {shallowest.clear_depth * 1e3:.3g} mm deep down to its "
+        f"{bottom}, less than {_MAY_CLOSE:.0%} of the tread's thickness of {thickness * 1e3:.3g} mm: it may close "
+        f"under load, and the {bottom} of a groove carries no pressure; leave the groove out where it closes"
+    ]
 
 
 def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:

@@ -37,6 +37,8 @@ from treadload.tire import Tire
 from treadload.tire.belt import InflatedBelt
 from treadload.tire.grooves import LateralGrooves
 from treadload.tire.lugs import LuggedTread, lugged_tread
+from treadload.tire.ribs import section_of
+from treadload.tire.tread import ProfileSurface
 from treadload.variables import dataset
 
 POSITIONS = 12
@@ -349,6 +351,8 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
     tire = window.tire
     assert tire.belt is not None
     warnings = [*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, window.grid)]
+    if isinstance(tire.surface, ProfileSurface):
+        warnings += cautions.of_tie_bars(section_of(tire.surface.profile))
     poisson = tire.belt.tread.poisson
     if poisson < _RUBBER:
         warnings.append(
@@ -357,7 +361,7 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
         )
     if window.pattern.is_joined:
         warnings.append(
-            "the undertread between blocks is thicker than 40 % of the tread, and what it passes from block to block "
-            "is left out"
+            "the undertread or a tie bar between blocks reaches higher than 40 % of the tread, and what it passes "
+            "from block to block is left out"
         )
     return warnings

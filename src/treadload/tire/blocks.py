@@ -57,7 +57,7 @@ class BlockPattern:
 
     @property
     def is_joined(self) -> bool:
-        """True if undertread thicker than 40 % of the tread joins blocks, which is left out."""
+        """True if undertread or a tie bar higher than 40 % of the tread joins blocks, which is left out."""
         return any(max(block.block.floors) > _JOINED * block.block.height for block in self.blocks)
 
     @property
@@ -220,7 +220,7 @@ def _block(
     for groove in grooves:
         # A shoulder ends in a free wall from the face to the belt.
         slope = 0.0 if groove is None else math.tan(groove.wall_angle)
-        depth = thickness if groove is None else groove.depth
+        depth = thickness if groove is None else _clear_depth(groove)
         floors.append(thickness - depth)
         slopes.append(slope)
         reach.append(0.0 if groove is None else max(0.5 * groove.width - slope * depth, 0.0))
@@ -229,6 +229,11 @@ def _block(
     except ValueError as error:
         raise InputError(f"blocks: {error}") from None
     return TreadBlock(block, x, y)
+
+
+def _clear_depth(groove: Groove | LateralGrooves) -> float:
+    """Depth down to the tie bar of a circumferential groove, m, or to the floor."""
+    return groove.clear_depth if isinstance(groove, Groove) else groove.depth
 
 
 def _four(values: list[float]) -> tuple[float, float, float, float]:

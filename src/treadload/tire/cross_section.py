@@ -34,13 +34,19 @@ class Channel:
 
     left, right: of its walls at the height of the face, m, to the right of the middle of the tread. depth: of the
     floor below the mean of the faces beside it, m. slopes: of its left and its right wall, by which it narrows per
-    depth, ≥ 0.
+    depth, ≥ 0. tie_bar: height of a rubber bridge above the floor, m, continuous along travel; 0 for none.
     """
 
     left: float
     right: float
     depth: float
     slopes: tuple[float, float] = (0.0, 0.0)
+    tie_bar: float = 0.0
+
+    @property
+    def clear_depth(self) -> float:
+        """Depth down to the tie bar, m; to the floor where there is none."""
+        return self.depth - self.tie_bar
 
     @property
     def centre(self) -> float:

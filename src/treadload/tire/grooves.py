@@ -22,8 +22,13 @@ class Groove:
 
     centre: distance to the right of the middle of the tread, m. width: between the walls where they would
     meet the tread unrounded, m. depth: below the tread, m. wall_angle: of the walls from the vertical, rad,
-    opening outwards. edge_radius: rounding of the upper edges, m, tangent to tread and wall.
-    Raises InputError when the walls or the rounding do not fit.
+    opening outwards. edge_radius: rounding of the upper edges, m, tangent to tread and wall. tie_bar: height of a
+    rubber bridge between the walls above the floor of the groove, m, taken as continuous along travel; 0 for none.
+    Raises InputError when the walls or the rounding do not fit, and for a tie bar as high as the groove is deep.
+
+    >>> groove = Groove(0.0, 0.010, 0.015, tie_bar=0.004)
+    >>> round(groove.clear_depth, 9)
+    0.011
     """
 
     centre: Length
@@ -31,14 +36,26 @@ class Groove:
     depth: Length
     wall_angle: Angle = 0.0
     edge_radius: Length = 0.0
+    tie_bar: Length = 0.0
 
     def __post_init__(self) -> None:
-        check_finite(self, "groove", ("centre",))
+        check_finite(self, "groove", ("centre", "tie_bar"))
         _check_trench("groove", self.width, self.depth, self.wall_angle, self.edge_radius)
+        if not (self.tie_bar >= 0 and self.clear_depth > 0.5 * EDGE):
+            raise InputError(
+                f"groove: tie_bar must be at least 0 and less than the depth of the groove, {self.depth:g} m, got "
+                f"{self.tie_bar:g} m; it is the height of the bar above the floor of the groove: leave out a groove "
+                "that the bar fills"
+            )
+
+    @property
+    def clear_depth(self) -> float:
+        """Depth of the groove down to its tie bar, m; the whole depth where it has none."""
+        return self.depth - self.tie_bar
 
     def worn(self, wear: float) -> Groove | None:
-        """The same groove below a tread worn by `wear`, m: None where it is gone."""
-        return worn_groove(self, wear)
+        """The same groove below a tread worn by `wear`, m: None where it is gone, or worn down to its tie bar."""
+        return None if wear >= self.clear_depth - EDGE else worn_groove(self, wear)
 
 
 @dataclass(frozen=True)
@@ -107,10 +124,11 @@ def equal_ribs(
     depth: float,
     wall_angle: float = 0.0,
     edge_radius: float = 0.0,
+    tie_bar: float = 0.0,
 ) -> tuple[Groove, ...]:
     """`number` equal grooves that leave number + 1 equal ribs on a tread of `tread_width`.
 
-    Lengths in m, wall_angle in rad. Raises InputError when no rib is left.
+    Lengths in m, wall_angle in rad; tie_bar: height of a bar in every groove. Raises InputError when no rib is left.
     """
     rib = (tread_width - number * width) / (number + 1)
     if number < 0 or not rib > 0:
@@ -119,7 +137,8 @@ def equal_ribs(
             "use fewer or narrower ones"
         )
     first = -0.5 * tread_width + rib + 0.5 * width
-    return tuple(Groove(first + i * (rib + width), width, depth, wall_angle, edge_radius) for i in range(number))
+    places = (first + i * (rib + width) for i in range(number))
+    return tuple(Groove(place, width, depth, wall_angle, edge_radius, tie_bar) for place in places)
 
 
 def rounding_start(wall_angle: float, edge_radius: float) -> float:

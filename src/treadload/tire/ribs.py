@@ -54,6 +54,7 @@ def section_of(profile: TreadProfile) -> TreadSection:
             groove.centre + 0.5 * groove.width,
             groove.depth,
             (math.tan(groove.wall_angle), math.tan(groove.wall_angle)),
+            groove.tie_bar,
         )
         for groove in sorted(profile.grooves, key=lambda groove: groove.centre)
     )
@@ -86,7 +87,7 @@ def ribs_between(section: TreadSection, thickness: float) -> tuple[RibGroup, ...
                 f"ribs: the groove at y = {groove.centre * 1e3:g} mm is {groove.depth * 1e3:g} mm deep and the tread "
                 f"{thickness * 1e3:g} mm thick; give the belt at least that tread_thickness, or give undertread"
             )
-        width, run = groove.right - groove.left, groove.depth * sum(groove.slopes)
+        width, run = groove.right - groove.left, groove.clear_depth * sum(groove.slopes)
         if run > width - _SAME:
             raise InputError(
                 f"ribs: the walls of the groove at y = {groove.centre * 1e3:g} mm meet above its floor: they run "
@@ -95,7 +96,7 @@ def ribs_between(section: TreadSection, thickness: float) -> tuple[RibGroup, ...
             )
     walls = [section.left, *(edge for groove in section.channels for edge in (groove.left, groove.right))]
     ribs = list(zip(walls[::2], [*walls[1::2], section.right], strict=True))
-    floors = [0.0, *(max(0.0, thickness - groove.depth) for groove in section.channels), 0.0]
+    floors = [0.0, *(max(0.0, thickness - groove.clear_depth) for groove in section.channels), 0.0]
     slopes = [0.0, *(slope for groove in section.channels for slope in groove.slopes), 0.0]
     drafts = list(zip(slopes[::2], slopes[1::2], strict=True))
     groups: list[RibGroup] = []

@@ -120,8 +120,9 @@ class TreadProfile:
     def worn(self, wear: float | str) -> TreadProfile:
         """The tread after `wear`, m, has been worn off it, the same everywhere along the radius of the wheel.
 
-        The radius shrinks, grooves become shallower, and narrower where their walls slope; arc, width and shoulders
-        stay. Raises InputError for a negative wear, and for one that leaves no groove of a tread with grooves.
+        The radius shrinks, grooves become shallower, and narrower where their walls slope; arc, width, shoulders and
+        the floors with their tie bars stay: a groove worn down to its tie bar is gone. Raises InputError for a
+        negative wear, and for one that leaves no groove of a tread with grooves.
 
         >>> new = TreadProfile(0.5, 1.0, 0.2, grooves=(Groove(0.0, 0.01, 0.015),))
         >>> old = new.worn("6 mm")
@@ -129,11 +130,12 @@ class TreadProfile:
         (0.494, 0.009)
         """
         depth = quantity(wear, "m")
-        cuts = [*(groove.depth for groove in self.grooves), *(lateral.depth for lateral in self.lateral)]
+        cuts = [*(groove.clear_depth for groove in self.grooves), *(lateral.depth for lateral in self.lateral)]
         deepest = max(cuts, default=0.25 * self.rolling_radius)
         if not 0 <= depth < deepest:
             raise InputError(
-                f"wear must be at least 0 and less than {deepest * 1e3:g} mm, the depth of the deepest groove, got "
+                f"wear must be at least 0 and less than {deepest * 1e3:g} mm, the depth of the deepest groove"
+                f"{' above its tie bar' if any(groove.tie_bar for groove in self.grooves) else ''}, got "
                 f"{depth * 1e3:g} mm"
                 if cuts
                 else f"wear must be at least 0 and less than {deepest * 1e3:g} mm, a quarter of the radius, got "
@@ -171,6 +173,7 @@ class TreadProfile:
         return (
             f"tread {self.name or '(unnamed)'}: radius {self.rolling_radius * 1e3:g} mm, crown radius "
             f"{self.crown_radius * 1e3:g} mm, width {self.width * 1e3:g} mm, {len(self.grooves)} grooves"
+            + (f", {tied} with tie bars" if (tied := sum(groove.tie_bar > 0 for groove in self.grooves)) else "")
             + (f", {len(self.lateral)} sets of lateral grooves" if self.lateral else "")
         )
 
@@ -188,7 +191,8 @@ class TreadProfile:
     def _groove_depth(self, y: Array) -> Array:
         depth = np.zeros_like(y)
         for g in self.grooves:
-            depth = np.maximum(depth, trench(np.abs(y - g.centre), g.width, g.depth, g.wall_angle, g.edge_radius))
+            away = np.abs(y - g.centre)
+            depth = np.maximum(depth, trench(away, g.width, g.clear_depth, g.wall_angle, g.edge_radius))
         return depth
 
     def _lateral_depth(self, along: Array, y: Array) -> Array:
