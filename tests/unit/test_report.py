@@ -17,6 +17,7 @@ from treadload.reporting import report, write_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import result_table
 from treadload.steps import Result, run
+from treadload.us_units import display_units
 
 CASE = """
 title = "{title}"
@@ -313,6 +314,30 @@ def test_report_of_a_moving_wheel_on_layers(moving, tmp_path):
     del tree["bowl"]
     part = _Page(write_report({"moving": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
     assert "Deflection bowl." not in part.words
+
+
+@pytest.mark.slow
+def test_report_in_us_units(moving, tmp_path):
+    tree = _only(moving.to_tree(), "contact", "response", "damage")
+    with display_units("us"):
+        html = write_report({"moving": tree}, tmp_path / "r.html").read_text(encoding="utf-8")
+    page = _Page(html)
+    for wanted in (
+        "Wheels at 44.7 mph",  # 72 km/h, 44.739
+        "thickness, in", "modulus E, ksi", "temperature, °F",
+        "391.6",  # 2700 MPa of EB-GB3 at 30 °C and 10 Hz is 391.6 ksi
+        "118.9",  # inflation pressure, 8.2 bar, of the table of inputs, psi
+        "in deep",
+    ):  # fmt: skip
+        assert wanted in page.words, wanted
+    heads = re.findall(r"<th[^>]*>([^<]*)</th>", html)
+    assert not [head for head in heads if re.search(r", (mm|kPa|MPa|kN|°C|N)$", head)]
+    cells = re.findall(r"<td[^>]*>([^<]*)</td>", html)
+    assert "psi" in {cell.strip() for cell in cells} or any(cell.endswith(" psi") for cell in cells)
+    assert not [cell for cell in cells if re.fullmatch(r"\s*([-\u2212\d.]+ )?(mm|kPa|MPa|kN|km/h|°C|N)\s*", cell)]
+    # Outside the block the same file is in SI units.
+    tree = _only(moving.to_tree(), "contact")
+    assert "kPa" in write_report({"moving": tree}, tmp_path / "si.html").read_text(encoding="utf-8")
 
 
 @pytest.mark.slow

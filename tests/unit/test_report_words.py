@@ -24,6 +24,7 @@ from treadload.reporting.tables import tables_of
 from treadload.reporting.words import SHOWN, entries, number, part_of, sentence, units_in, worded
 from treadload.rows import Place, Row
 from treadload.units import Unit
+from treadload.us_units import display_units
 
 LIFE = """
 title = "Mixed traffic"
@@ -314,3 +315,18 @@ def test_rows_are_tables_with_their_remarks():
     assert several.columns == ("", "first, microstrain", "second, microstrain", "note")
     assert several.rows == (("step 1", "100", "100", "at 1"), ("step 2", "200", "200", "at 2"))
     assert single.rows == (("third", "\u221212345 N", "at x = \u22121.0 mm, y = 0.0 mm"), ("fourth", "a-b", ""))
+
+
+def test_inputs_in_us_units():
+    for value, symbol, si, us in (
+        (0.2, "m", ("200", "mm"), ("7.874", "in")),
+        (820e3, "Pa", ("820", "kPa"), ("118.9", "psi")),
+        (5400e6, "modulus", ("5400", "MPa"), ("783.2", "ksi")),
+        (15.0, "degC", ("15", "°C"), ("59", "°F")),
+        (5.0, "K", ("5", "K"), ("9", "Δ°F")),
+        (120e-6, "strain", ("120", "microstrain"), ("120", "microstrain")),
+    ):
+        annotation = Annotated[float, Unit(symbol)]
+        assert worded(value, annotation) == si
+        with display_units("us"):
+            assert worded(value, annotation) == us

@@ -22,7 +22,7 @@ from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.life import WORKS, life_report
 from treadload.reporting.reading import ReportCase, kind_of
-from treadload.reporting.road import COLUMNS, road_tables
+from treadload.reporting.road import road_columns, road_tables
 from treadload.reporting.tables import result_table, statistics_table
 from treadload.results import Study, as_tree, bibtex, to_tree
 from treadload.results.tree import QUESTIONS
@@ -131,7 +131,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, object]:
             and (page := first_of_response(data)) is not None
         ],
         "comparison": side_by_side,
-        "road_columns": COLUMNS,
+        "road_columns": road_columns(),
         "roads": road_tables(cases),
         "inputs": input_table(cases),
         "lists": input_lists(cases),

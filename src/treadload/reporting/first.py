@@ -15,9 +15,8 @@ from treadload.damage.fields import known_quantities
 from treadload.damage.quantity import Quantity, cut, in_tension
 from treadload.kernels.largest import index_of_largest
 from treadload.plots.first import crack_or_not, failing_order
-from treadload.plots.kit.style import signed
 from treadload.plots.response import NAMES
-from treadload.reporting.typesetting import typeset
+from treadload.reporting.typesetting import typeset, with_minus
 from treadload.results.schema import read_json
 from treadload.rows import Row, from_json, row, table_of
 from treadload.variables import Display, display_of
@@ -104,11 +103,16 @@ def first_of_response(data: xr.Dataset) -> FirstPage | None:
     rows = tuple(row for row, _ in rows_found)
     if not rows:
         return None
-    depths = ", ".join(f"{1e3 * float(z):g}" for z in np.atleast_1d(data["depth"].to_numpy()))
+    solved = [_length("depth", float(z), "g") for z in np.atleast_1d(data["depth"].to_numpy())]
+    depths = f"{', '.join(depth.number for depth in solved)} {solved[0].shown_unit}"
     over = data.attrs.get("mean_over")
-    how = f"means over {1e3 * float(over):g} mm" if over else "points, which depend on the cells near edges of ribs"
+    how = (
+        f"means over {_length('mean_over', float(over), 'g').text}"
+        if over
+        else "points, which depend on the cells near edges of ribs"
+    )
     note = (
-        f"Largest of the depths solved, {depths} mm, at {how}. Extensions are read only where a principal stress is "
+        f"Largest of the depths solved, {depths}, at {how}. Extensions are read only where a principal stress is "
         "tensile. No law ranks them: what is calibrated, and for what, stands in the last column."
     )
     heading = (
@@ -139,7 +143,10 @@ def _response_row(quantity: Quantity, data: xr.Dataset) -> tuple[tuple[str, ...]
         elif normal is not None:
             way = "none: nothing is tensile"
     # Numbers stay on the line of what they belong to.
-    places = (f"{name}\u00a0=\u00a0{signed(1e3 * at, 0)}\u00a0mm" for name, at in (("x", x), ("y", y)))
+    places = (
+        with_minus(f"{name} = {_length(name, at, 'z.0f').text}").replace(" ", "\u00a0")
+        for name, at in (("x", x), ("y", y))
+    )
     where = ", ".join((_deep(depth), *places)) if largest > 0 else "–"
     shown = Display("", "", quantity.in_words)
     read = typeset(row("largest_reading", largest, display=shown)) if largest > 0 else "none"
@@ -152,4 +159,9 @@ def _is_tensile(data: xr.Dataset, at: tuple[int, ...]) -> bool:
 
 
 def _deep(depth: float) -> str:
-    return "surface" if depth == 0 else f"{depth * 1e3:g} mm deep"
+    return "surface" if depth == 0 else f"{_length('depth', depth, 'g').text} deep"
+
+
+def _length(key: str, value: float, form: str) -> Row:
+    """A length, m, as it is shown. form: of millimetres."""
+    return Row(key, key, value, "mm", form)

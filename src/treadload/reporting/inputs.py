@@ -12,6 +12,7 @@ from treadload.damage.quantity import Quantity
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import MISSING, NamedTable, Row, Section
 from treadload.reporting.words import annotation_of, columns, entries, named_tables, part_of
+from treadload.rows import Row as StatedRow
 
 _HEADINGS = {
     "": "Computation",
@@ -84,7 +85,8 @@ def _inputs_of(case: ReportCase) -> dict[Key, str]:
             rows["Tire", "as solved", ""] = str(contact.attrs["tire"])
         cells = f"{contact.sizes['x']} × {contact.sizes['y']}"
         if "dx" in contact.attrs and "dy" in contact.attrs:
-            cells += f" of {float(contact.attrs['dx']) * 1e3:g} × {float(contact.attrs['dy']) * 1e3:g} mm"
+            dx, dy = (StatedRow(key, key, float(contact.attrs[key]), "mm", "g") for key in ("dx", "dy"))
+            cells += f" of {dx.number} × {dy.text}"
         rows[_HEADINGS[""], "contact grid", ""] = cells
     return rows
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cache
 from typing import Annotated, Literal, TypeGuard, get_args, get_origin, get_type_hints
@@ -11,7 +11,9 @@ from typing import Annotated, Literal, TypeGuard, get_args, get_origin, get_type
 from treadload.plots.kit.style import power_of_ten, thousands
 from treadload.read import Choice, Table, arms
 from treadload.units import Unit
+from treadload.us_units import us_unit
 
+Convert = Callable[[float], float]
 PURE = "–"
 _MINUS = "\u2212"
 
@@ -172,10 +174,10 @@ def columns(
     for key in keys:
         annotation = annotation_of(model, key)
         values = [item.get(key) for item in items]
-        label, factor = shown_in(annotation, [value for value in values if value is not None])
+        label, convert = shown_in(annotation, [value for value in values if value is not None])
         unit = f", {label}" if label not in ("", PURE) else ""
         heads.append(f"{name_of(key, model)}{unit}")
-        cells.append([PURE if value is None else _text(value, annotation, factor) for value in values])
+        cells.append([PURE if value is None else _text(value, annotation, convert) for value in values])
     return tuple(heads), tuple(zip(*cells, strict=True))
 
 
@@ -190,19 +192,32 @@ def sentence(model: type[Table] | None, table: Mapping[str, object]) -> str:
 
 def worded(value: object, annotation: object) -> tuple[str, str]:
     """A value and its unit."""
-    label, factor = shown_in(annotation, value)
-    return _text(value, annotation, factor), label
+    label, convert = shown_in(annotation, value)
+    return _text(value, annotation, convert), label
 
 
-def shown_in(annotation: object, value: object) -> tuple[str, float]:
-    """Unit and factor in which numbers of a field are shown; ("", 1) of words and of numbers of several kinds."""
+def shown_in(annotation: object, value: object) -> tuple[str, Convert]:
+    """Unit in which numbers of a field are shown, and the conversion to it; "" of words and of several kinds."""
     if not any(True for _ in _numbers(value)):
-        return "", 1.0
+        return "", _as_it_is
     symbols = list(dict.fromkeys(units_in(annotation)))
     if not symbols:
-        return PURE, 1.0
+        return PURE, _as_it_is
     # A pair of unlike numbers: each carries its own unit.
-    return ("", 1.0) if len(symbols) > 1 and isinstance(value, list) else SHOWN[symbols[0]]
+    return ("", _as_it_is) if len(symbols) > 1 and isinstance(value, list) else _display(symbols[0])
+
+
+def _display(symbol: str) -> tuple[str, Convert]:
+    """Unit that people use for a unit of `SHOWN`, and the conversion from SI; US units to four digits."""
+    label, factor = SHOWN[symbol]
+    us = us_unit(label, symbol)
+    if us is None:
+        return label, lambda value: value * factor
+    return us.symbol, lambda value: float(f"{us.number(value):.4g}")
+
+
+def _as_it_is(value: float) -> float:
+    return value
 
 
 def name_of(key: str, model: type[Table] | None = None) -> str:
@@ -294,28 +309,28 @@ def _numbers(value: object) -> Iterator[float]:
         yield float(value)
 
 
-def _text(value: object, annotation: object, factor: float) -> str:
+def _text(value: object, annotation: object, convert: Convert) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, Mapping):
         return sentence(part_of(annotation, value), value)
     if _is_tables(value):
-        return "; ".join(_text(item, annotation, factor) for item in value)
+        return "; ".join(_text(item, annotation, convert) for item in value)
     if isinstance(value, list | tuple):
         return ", ".join(
-            f"({_pair(item, annotation, factor)})" if isinstance(item, list) else _text(item, annotation, factor)
+            f"({_pair(item, annotation, convert)})" if isinstance(item, list) else _text(item, annotation, convert)
             for item in value
         )
     if isinstance(value, int | float):
-        return number(value * factor)
+        return number(convert(value))
     return _VALUES.get(str(value), str(value))
 
 
-def _pair(pair: list[object], annotation: object, factor: float) -> str:
+def _pair(pair: list[object], annotation: object, convert: Convert) -> str:
     """Numbers in a bracket; each with its unit where they are of several kinds."""
     symbols = list(units_in(annotation))
     if len(set(symbols)) < 2 or len(symbols) != len(pair):
-        return ", ".join(_text(item, annotation, factor) for item in pair)
+        return ", ".join(_text(item, annotation, convert) for item in pair)
     texts = []
     for item, symbol in zip(pair, symbols, strict=True):
         text, label = worded(item, Annotated[float, Unit(symbol)])
