@@ -68,12 +68,15 @@ US_UNITS: Mapping[str, USUnit] = MappingProxyType({
     "kN/°": USUnit("kip/°", 1e3 * _LBF / _DEGREE, 1), "N m/°": USUnit("lbf ft/°", _LBF * _FOOT / _DEGREE, 1),
     "rad/m": USUnit("rad/ft", 1 / _FOOT, 1), "N/kN": USUnit("lbf/kip", 1e-3),
     "MPa√m": USUnit("ksi√in", 1e3 * _PSI * _INCH**0.5, 1),
-    "J": USUnit("ft lbf", _LBF * _FOOT, 1), "J/m": USUnit("ft lbf/ft", _LBF, 1),
+    "J": USUnit("ft lbf", _LBF * _FOOT, 1),
     "J/m²": USUnit("ft lbf/ft²", _LBF / _FOOT, 2), "kJ/m²": USUnit("ft lbf/ft²", _LBF / _FOOT, -1),
     "J/m³": USUnit("ft lbf/ft³", _LBF / _FOOT**2, 2), "km/h": USUnit("mph", 5280 * _FOOT / 3600, 1),
     "°C": USUnit("°F", 5 / 9, 0, 32.0), "K": USUnit("Δ°F", 5 / 9),
 })  # fmt: skip
-"""Unit of display (a key of `variables.SCALES`) → the US unit. Other units stay: microstrain, %, years, W."""
+"""Unit of display (a key of `variables.SCALES`) → the US unit.
+
+Other units stay: microstrain, %, years, W, and J/m, whose rows are labelled "per metre".
+"""
 _MODULUS = USUnit("ksi", 1e3 * _PSI, 1)
 
 

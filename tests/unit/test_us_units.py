@@ -20,11 +20,11 @@ PINT = {
     "kN m": ("kN*m", "kip*ft"), "N/mm": ("N/mm", "lbf/inch"), "kN/rad": ("kN/rad", "kip/rad"),
     "kN/°": ("kN/deg", "kip/deg"), "N m/°": ("N*m/deg", "lbf*ft/deg"), "rad/m": ("rad/m", "rad/ft"),
     "N/kN": ("N/kN", "lbf/kip"), "MPa√m": ("MPa*m**0.5", "ksi*inch**0.5"), "J": ("J", "ft*lbf"),
-    "J/m": ("J/m", "lbf"), "J/m²": ("J/m**2", "ft*lbf/ft**2"), "kJ/m²": ("kJ/m**2", "ft*lbf/ft**2"),
+    "J/m²": ("J/m**2", "ft*lbf/ft**2"), "kJ/m²": ("kJ/m**2", "ft*lbf/ft**2"),
     "J/m³": ("J/m**3", "ft*lbf/ft**3"), "km/h": ("km/h", "mile/hour"), "°C": ("degC", "degF"),
     "K": ("kelvin", "delta_degF"),
 }  # fmt: skip
-STAY = {"", "microstrain", "%", "°", "W", "kW/m²", "s", "years"}
+STAY = {"", "J/m", "microstrain", "%", "°", "W", "kW/m²", "s", "years"}
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
