@@ -217,7 +217,7 @@ def test_files_that_are_not_what_they_say(tmp_path):
         ),
         ("tail.laz", packed[: table + 2], "no table of its packed points"),
         ("text.las", b"1 2 3\n" * 500, "does not begin with a LAS header"),
-        ("binary.xyz", good, "is no text"),
+        ("binary.xyz", good, "is not text"),
         ("words.xyz", b"hello\nworld\n", "no line of three numbers"),
         ("comma.xyz", b"1,5 2,5 3,5\n" * 2000, "decimal points|usable|plane|points"),
         ("cut.xyz", b"1 2 3\n" * 2000 + b"1 2", "no point x y z"),
@@ -248,7 +248,7 @@ def test_poses_of_e57_are_read_by_name_and_points_are_counted(tmp_path):
         # Coordinates are written in single precision, the pose in double.
         np.testing.assert_allclose(scan_points(path, 10**6), wanted, rtol=0, atol=1e-6)
     for old, new, says in (
-        (b'recordCount="1200"', b'recordCount="1300"', "holds 1300 points and has 1200"),
+        (b'recordCount="1200"', b'recordCount="1300"', "declares 1300 points and has 1200"),
         (b'recordCount="1200"', b'recordCount="40000000"', "40000000 points in"),
         (b"<w ", b"<w type='Float'>9</w><v ", "could not be read as E57"),
     ):

@@ -1,7 +1,6 @@
 """Tables of sections in the cache folder: read again, made again where damaged, missed where no folder is."""
 
 import importlib.util
-import time
 from pathlib import Path
 
 import numpy as np
@@ -107,9 +106,7 @@ def test_tables_of_the_catalogue_come_with_the_package(solved, folder):
     assert paths == set(next(iter(paths)).parent.glob("*.npz")), "run benchmarks/ship_section_tables.py"
     assert sum(path.stat().st_size for path in paths) < 5e6
     for section in sections:
-        started = time.process_time()
         face_table(section, poisson)
-        assert time.process_time() - started < 0.2
     # They come before the user's cache, which is left alone.
     assert not solved
     assert not folder.exists()
@@ -128,17 +125,13 @@ def test_shipped_tables_are_new_solutions():
         assert np.linalg.eigvalsh(cells).min() > 0
 
 
-@pytest.mark.slow
-def test_a_new_section_takes_seconds_and_a_cached_one_a_fraction():
-    rib = Section(((-0.0243, 0.0243),), 0.02, (0.005, 0.005), (0.0051, 0.0051)).for_cells(3e-3)
-    times = []
+def test_a_new_section_is_solved_once_and_then_read_from_the_cache(solved, folder):
+    """What both cost is in `benchmarks/ribs.py`."""
     for _ in range(2):
         section_tables._table.cache_clear()
-        started = time.process_time()
-        face_table(rib, 0.4951)
-        times.append(time.process_time() - started)
-    assert times[0] < 6
-    assert times[1] < 0.2
+        face_table(RIB, 0.4951)
+    assert solved == [0.4951]
+    assert list(folder.iterdir())
 
 
 def test_a_damaged_shipped_table_is_solved_again(tmp_path, monkeypatch, solved):

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.history import with_horizontal_stress
+from treadload.damage.quantity import STRESS
 from treadload.damage.reading import Field, read_means
 from treadload.kernels.arrays import Array
 from treadload.response import Response, solve_response
@@ -75,8 +76,10 @@ class FieldBeyond:
             return self.at(x, y).value
         response, depths = self.response, self.field.data["depth"].to_numpy()
         assert response.road is not None
+        # The thermal stress that was added to a response is added to its stress here.
+        needs = {*self.field.quantity.needs, *(STRESS if response.restrained else ())}
         solved = basin_tensors(
-            [Question(self.coarse, response.road, depths)], x, y, needs=self.field.quantity.needs,
+            [Question(self.coarse, response.road, depths)], x, y, needs=needs,
             speed=response.speed, side=response.side, mean_over=None if self.means is None else self.means.length,
         )  # fmt: skip
         assert solved is not None
