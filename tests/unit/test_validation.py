@@ -13,7 +13,7 @@ from treadload.validation.check import absolute, relative
 SLOW = {
     *("conditions", "contact on layers", "disc", "histories", "iterations", "layers", "mesh", "moving", "stones"),
     *("cracks", "published", "strain", "traffic", "yielding", "rib sections", "three ribs", "rolling ribs"),
-    "blocks",
+    *("blocks", "ribs"),
 }
 
 

@@ -72,6 +72,7 @@ def test_wear_leaves_tread_on_the_belt():
         tl.Case.from_dict({**TABLE, "tire": {"scan": "example", "wear": "2 mm", "inflation_pressure": "8 bar"}})
 
 
+@pytest.mark.slow
 def test_a_worn_case_is_the_case_of_the_worn_numbers():
     worn = tl.run(case(wear="4 mm")).contact.dataset
     profile = {**PROFILE, "rolling_radius": 0.496, "grooves": [
