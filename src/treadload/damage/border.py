@@ -92,19 +92,26 @@ def beyond_the_map(
         elif np.nanmax(values) > 0:
             ends = []
     at_end = bool(ends) and bool(np.nanmax(further_values) > most)
-    by_depth = np.nanmax(further_values, axis=(1, 2))
-    if not at_end and np.nanmax(further_values) > _RIVAL * most:
-        at, further_values = _closer(at, further_values, evaluate)
-        by_depth = np.fmax(by_depth, np.nanmax(further_values, axis=(1, 2)))
-    *_, row, column = index_of_largest(further_values)
+    return _largest(at, further_values, evaluate, most, enlargements, float(more.max()), at_end)
+
+
+def _largest(
+    at: tuple[Array, ...],
+    values: Array,
+    evaluate: Evaluate,
+    most: float,
+    enlargements: int,
+    reach: float,
+    at_end: bool,
+) -> Beyond:
+    """What values (depth, y, x) at points beyond a map hold, evaluated closer where they come near the most of it."""
+    by_depth = _by_depth(values)
+    if not at_end and np.nanmax(values) > _RIVAL * most:
+        at, values = _closer(at, values, evaluate)
+        by_depth = np.fmax(by_depth, _by_depth(values))
+    *_, row, column = index_of_largest(values)
     return Beyond(
-        float(at[1][column]),
-        float(at[0][row]),
-        float(np.nanmax(further_values)),
-        by_depth,
-        enlargements,
-        float(more.max()),
-        at_end,
+        float(at[1][column]), float(at[0][row]), float(np.nanmax(values)), by_depth, enlargements, reach, at_end
     )
 
 
@@ -181,14 +188,7 @@ def whole_basin(values: Array, x: Array, y: Array, field: FieldBeyond, reach: fl
     if np.isnan(further).all():
         return None
     at_end = bool(_ends(further, at)) and bool(np.nanmax(further) > max(most, 0.0))
-    by_depth = _by_depth(further)
-    if not at_end and np.nanmax(further) > _RIVAL * most:
-        at, further = _closer(at, further, field.closely)
-        by_depth = np.fmax(by_depth, _by_depth(further))
-    *_, row, column = index_of_largest(further)
-    return Beyond(
-        float(at[1][column]), float(at[0][row]), float(np.nanmax(further)), by_depth, 1, float(more), at_end
-    )
+    return _largest(at, further, field.closely, most, 1, float(more), at_end)
 
 
 def _kept(axes: tuple[Array, Array], largest: tuple[int, int]) -> list[Array]:

@@ -19,7 +19,7 @@ from numpy.polynomial.chebyshev import chebpts1, chebvander
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
 from treadload.kernels.fft import rfft
 from treadload.roads.drop_histories import DropHistories
-from treadload.roads.model import BasinModel, models, slopes_over
+from treadload.roads.model import BasinModel, OverBasins, models, slopes_over
 from treadload.roads.unknowns import Unknowns, has_memory, modulus_of, relative_modulus
 
 # Frequencies: octaves from the first to the last, Hz, and points of each.
@@ -29,7 +29,7 @@ _REST = 8.0
 
 
 @dataclass(frozen=True, eq=False)
-class HistoryModel:
+class HistoryModel(OverBasins):
     """Deflections of drops at the fitted times, over logarithms of the unknowns x (n, v, p).
 
     static: the same drops and layers under 1 N. moduli: (n, L, f) of the present layers at each frequency, Pa; of
@@ -40,26 +40,6 @@ class HistoryModel:
     static: BasinModel
     moduli: Array | ComplexArray
     times: Array | ComplexArray
-
-    @property
-    def drops(self) -> IntArray:
-        """Numbers of the drops."""
-        return self.static.drops
-
-    @property
-    def present(self) -> tuple[int, ...]:
-        """Numbers of the layers that are there."""
-        return self.static.present
-
-    @property
-    def sought(self) -> tuple[int, ...]:
-        """Places among these of the layers whose modulus is sought."""
-        return self.static.sought
-
-    @property
-    def chosen(self) -> tuple[int, ...]:
-        """Numbers of the unknowns in the columns of x."""
-        return self.static.chosen
 
     @property
     def load(self) -> Array:

@@ -68,19 +68,48 @@ class BasinModel:
 
     def deflection(self, x: Array) -> Array:
         """Deflection (n, v, s), m."""
-        moduli = np.broadcast_to(self.log_moduli, (*x.shape[:-1], len(self.present))).copy()
-        count = len(self.sought)
-        moduli[..., list(self.sought)] = x[..., :count]
-        shear = np.exp(moduli) / (2 * (1 + self.columns.poisson[:, None, :]))
+        shear = np.exp(self.layers(x)) / (2 * (1 + self.columns.poisson[:, None, :]))
         columns = self.columns
         if self.seeks_depth:
             columns = columns.with_thickness(len(self.present) - 1, np.exp(x[..., -1]) - self.above[:, None])
         kernel, top = columns.kernel(shear)
         return np.asarray(self.plate.settlement(kernel, top) * self.load[:, None, None])
 
+    def layers(self, x: Array) -> Array:
+        """Ln of the moduli of the present layers (n, v, L), Pa."""
+        moduli = np.broadcast_to(self.log_moduli, (*x.shape[:-1], len(self.present))).copy()
+        moduli[..., list(self.sought)] = x[..., : len(self.sought)]
+        return moduli
+
     def with_slopes(self, x: Array) -> tuple[Array, Array]:
         """Deflection (n, v, s), m, and its slopes over x (n, v, s, p)."""
         return slopes_over(self.deflection, x)
+
+
+class OverBasins:
+    """Drops, layers and unknowns of a model that is made over a `BasinModel`, its `static`."""
+
+    static: BasinModel
+
+    @property
+    def drops(self) -> IntArray:
+        """Numbers of the drops."""
+        return self.static.drops
+
+    @property
+    def present(self) -> tuple[int, ...]:
+        """Numbers of the layers that are there."""
+        return self.static.present
+
+    @property
+    def sought(self) -> tuple[int, ...]:
+        """Places among these of the layers whose modulus is sought."""
+        return self.static.sought
+
+    @property
+    def chosen(self) -> tuple[int, ...]:
+        """Numbers of the unknowns in the columns of x."""
+        return self.static.chosen
 
 
 def slopes_over(function: Callable[[Array], Array], x: Array) -> tuple[Array, Array]:

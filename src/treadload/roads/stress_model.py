@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -19,7 +20,7 @@ from treadload.kernels.mixing import AndersonOfMany
 from treadload.materials import StressDependent
 from treadload.pavement import Pavement
 from treadload.pavement.stress_sublayers import StressSublayers
-from treadload.roads.model import BasinModel, models, springs_between
+from treadload.roads.model import BasinModel, OverBasins, models, springs_between
 from treadload.roads.station_loads import StationLoads
 from treadload.roads.unknowns import Unknowns, poisson_of
 
@@ -35,7 +36,7 @@ _STEP = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class LinearLoads:
+class LinearLoads(OverBasins):
     """The same drops on linear layers, each with one modulus for all loads: what starts are found with.
 
     static: one drop of 1 N for each station. loads: (n, K), N.
@@ -43,26 +44,6 @@ class LinearLoads:
 
     static: BasinModel
     loads: Array
-
-    @property
-    def drops(self) -> IntArray:
-        """Numbers of the stations."""
-        return self.static.drops
-
-    @property
-    def present(self) -> tuple[int, ...]:
-        """Numbers of the layers that are there."""
-        return self.static.present
-
-    @property
-    def sought(self) -> tuple[int, ...]:
-        """Places among these of the layers whose modulus is sought."""
-        return self.static.sought
-
-    @property
-    def chosen(self) -> tuple[int, ...]:
-        """Numbers of the unknowns in the columns of x."""
-        return self.static.chosen
 
     @property
     def load(self) -> Array:
@@ -103,19 +84,20 @@ class LinearLoads:
 
 
 @dataclass(frozen=True, eq=False)
-class StressModel:
+class StressModel(OverBasins):
     """Deflections of the drops of stations, over logarithms of the unknowns x (n, v, p).
 
-    linear: the same on linear layers. columns: of the sublayers, for the deflection. halves: the same with each
-    stress-dependent one cut where its stress is taken, for the stress. axis: its integral. cuts: numbers of the
-    layers of `halves` above these cuts. owner, half_owner: place among the present layers of each layer of `columns`
-    and `halves`. parts, half_parts: which sublayer that depends on stress each of them is, -1 for none. materials: of
-    these sublayers (m). vertical, horizontal: stress of the road's weight at the cuts (n, m), Pa. pressure: below the
-    plate (n, K), Pa. start: ln of the moduli of the sublayers over the nominal ones that states start from
-    (n, K, m).
+    static: one drop of 1 N for each station, on linear layers. loads: (n, K), N. columns: of the sublayers, for the
+    deflection. halves: the same with each stress-dependent one cut where its stress is taken, for the stress. axis:
+    its integral. cuts: numbers of the layers of `halves` above these cuts. owner, half_owner: place among the present
+    layers of each layer of `columns` and `halves`. parts, half_parts: which sublayer that depends on stress each of
+    them is, -1 for none. materials: of these sublayers (m). vertical, horizontal: stress of the road's weight at the
+    cuts (n, m), Pa. pressure: below the plate (n, K), Pa. start: ln of the moduli of the sublayers over the nominal
+    ones that states start from (n, K, m).
     """
 
-    linear: LinearLoads
+    static: BasinModel
+    loads: Array
     columns: Columns
     halves: Columns
     axis: AxisIntegral
@@ -131,29 +113,9 @@ class StressModel:
     start: Array
 
     @property
-    def drops(self) -> IntArray:
-        """Numbers of the stations."""
-        return self.linear.drops
-
-    @property
-    def present(self) -> tuple[int, ...]:
-        """Numbers of the layers that are there."""
-        return self.linear.present
-
-    @property
-    def sought(self) -> tuple[int, ...]:
-        """Places among these of the layers whose modulus is sought."""
-        return self.linear.sought
-
-    @property
-    def chosen(self) -> tuple[int, ...]:
-        """Numbers of the unknowns in the columns of x."""
-        return self.linear.chosen
-
-    @property
     def load(self) -> Array:
         """First load of each station (n,), N."""
-        return self.linear.load
+        return np.asarray(self.loads[:, 0])
 
     @property
     def size(self) -> int:
@@ -163,18 +125,19 @@ class StressModel:
     @property
     def geometry(self) -> Array:
         """Numbers that stations of the same geometry share (n, ...)."""
-        return self.linear.geometry
+        return self.static.geometry
 
-    @property
+    @cached_property
     def coarse(self) -> LinearLoads:
-        """What starts are found with."""
-        return self.linear
+        """The same on linear layers: what starts are found with."""
+        return LinearLoads(self.static, self.loads)
 
     def rows(self, at: IntArray) -> StressModel:
         """The model of some of the stations."""
         return replace(
             self,
-            linear=self.linear.rows(at),
+            static=self.static.rows(at),
+            loads=self.loads[at],
             columns=self.columns.rows(at),
             halves=self.halves.rows(at),
             vertical=self.vertical[at],
@@ -204,7 +167,7 @@ class StressModel:
         """
         n, v, _ = x.shape
         loads, count = self.pressure.shape[1], len(self.materials)
-        layers = np.repeat(self._layers(x), loads, axis=1)
+        layers = np.repeat(self.static.layers(x), loads, axis=1)
         pressure = np.tile(self.pressure, (1, v))
         state = (np.repeat(self.start[:, None], v, axis=1) if start is None else start).reshape(n, v * loads, count)
         state, settled = self._iterate(layers, pressure, state, _ROUNDS)
@@ -245,19 +208,11 @@ class StressModel:
     def _deflection(self, x: Array, state: Array) -> Array:
         n, v, _ = x.shape
         loads = self.pressure.shape[1]
-        layers = np.repeat(self._layers(x), loads, axis=1)
+        layers = np.repeat(self.static.layers(x), loads, axis=1)
         shear = _shear(layers, state.reshape(n, v * loads, -1), self.owner, self.parts, self.columns.poisson)
         kernel, top = self.columns.kernel(shear)
-        static = self.linear.static
-        each = static.plate.settlement(kernel, top) * np.tile(self.linear.loads, (1, v))[..., None]
+        each = self.static.plate.settlement(kernel, top) * np.tile(self.loads, (1, v))[..., None]
         return np.asarray(each.reshape(n, v, -1))
-
-    def _layers(self, x: Array) -> Array:
-        """Ln of the moduli of the present layers (n, v, L), nominal ones of those that depend on stress."""
-        static = self.linear.static
-        moduli = np.broadcast_to(static.log_moduli, (*x.shape[:-1], len(static.present))).copy()
-        moduli[..., list(static.sought)] = x[..., : len(static.sought)]
-        return moduli
 
 
 def _shear(layers: Array, state: Array, owner: IntArray, parts: IntArray, poisson: Array) -> Array:
@@ -337,10 +292,10 @@ def _model(
     halves = Columns.of(axis.nodes, thickness[drop], np.tile(half_ratio, (n, 1)), half_springs[:-1], rigid=rigid)
     loads = stations.load[static.drops]
     parts = np.array([numbers.index(k) if k in numbers else -1 for k in range(count)])
-    linear = LinearLoads(replace(static, load=np.ones(n)), loads)
     pressure = loads / (math.pi * stations.basins.plate_radius**2)
     model = StressModel(
-        linear, columns, halves, axis, tuple(cuts), owner, np.array(half_owner), parts, np.array(half_parts),
+        replace(static, load=np.ones(n)), loads, columns, halves, axis, tuple(cuts), owner, np.array(half_owner),
+        parts, np.array(half_parts),
         divided[0].materials, np.array([entry.vertical for entry in divided]),
         np.array([entry.horizontal for entry in divided]), pressure, np.zeros((*loads.shape, len(numbers))),
     )  # fmt: skip

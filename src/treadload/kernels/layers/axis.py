@@ -9,22 +9,19 @@ Source: as `kernels.layers.hankel` and `kernels.layers.settlement`.
 
 from __future__ import annotations
 
-import itertools
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.polynomial.chebyshev import chebpts1, chebvander
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.layers.doubling import panels_up_to
 from treadload.kernels.layers.layered import Body, Compliance
 from treadload.kernels.layers.settlement import Columns, scaled
-from treadload.kernels.layers.wavenumbers import gauss
 
-# Points of a panel, which spans a factor of two, and Gauss points of half a turn of the Bessel function.
-_POINTS, _GAUSS = 6, 12
+# Points of a panel, which spans a factor of two.
+_POINTS = 6
 # Wavenumbers end where exp(-k z) is 1e-5; the panel at zero ends at this over the depth of the columns.
 _END, _BEGIN = 12.0, 0.25
 
@@ -42,21 +39,10 @@ class AxisIntegral:
     @classmethod
     def of(cls, radius: float, shallowest: float, depth: float) -> AxisIntegral:
         """radius: of the disc, m. shallowest: least depth of the stress, m. depth: of the deepest layer, m."""
-        edges = [0.0, _BEGIN / depth]
-        while edges[-1] < _END / shallowest:
-            edges.append(2 * edges[-1])
-        unit = chebpts1(_POINTS)
-        to_series = np.linalg.inv(chebvander(unit, _POINTS - 1))
         nodes, weights = [], []
-        for low, high in itertools.pairwise(edges):
-            nodes.append(0.5 * (high - low) * unit + 0.5 * (high + low))
-            parts = max(1, math.ceil((high - low) * radius / math.pi))
-            at, share = gauss(_GAUSS)
-            ends = np.linspace(low, high, parts + 1)
-            k = (0.5 * np.diff(ends)[:, None] * at + 0.5 * (ends[1:] + ends[:-1])[:, None]).ravel()
-            w = (0.5 * np.diff(ends)[:, None] * share).ravel()
-            interpolate = chebvander((2 * k - low - high) / (high - low), _POINTS - 1) @ to_series
-            weights.append((w * radius * scipy.special.j1(k * radius)) @ interpolate)
+        for panel in panels_up_to(_BEGIN / depth, _END / shallowest, _POINTS, radius):
+            nodes.append(panel.nodes)
+            weights.append((panel.w * radius * scipy.special.j1(panel.k * radius)) @ panel.shares)
         return cls(np.concatenate(nodes), np.concatenate(weights))
 
     def stress(self, columns: Columns, shear: Array, bottoms: Sequence[int]) -> tuple[Array, Array]:

@@ -1,11 +1,10 @@
 """Settlement of the surface under a plate, for many layered columns at once: what deflection bowls are fitted with.
 
 u(r) = P / (2π) ∫ g(k) T(k a) J0(k r) dk, with g(k) = k u_z(k) / f_z(k) of the layers and T the transform of the
-plate's
-pressure. g less that of the top layer's half-space falls like exp(-2 k h₁) and is smooth over panels that double: it
-is known at a few points of each, and its integral is a sum with weights that all columns share. The half-space itself
-has a closed form (Weber and Schafheitlin). Slabs of unit shear modulus are computed once: a change of moduli costs
-some forty products for each wavenumber and layer.
+plate's pressure. g less that of the top layer's half-space falls like exp(-2 k h₁) and is smooth over panels that
+double: it is known at a few points of each, and its integral is a sum with weights that all columns share. The
+half-space itself has a closed form (Weber and Schafheitlin). Slabs of unit shear modulus are computed once: a change
+of moduli costs some forty products for each wavenumber and layer.
 
 Source: as `kernels.layers.layered`; integrals of two Bessel functions after Watson (1944), A Treatise on the Theory
 of Bessel Functions, section 13.4.
@@ -13,7 +12,6 @@ of Bessel Functions, section 13.4.
 
 from __future__ import annotations
 
-import itertools
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
@@ -21,18 +19,15 @@ from typing import cast
 
 import numpy as np
 import scipy
-from numpy.polynomial.chebyshev import chebpts1, chebvander
 
 from treadload.kernels.arrays import Array, IntArray, Numbers
+from treadload.kernels.layers.doubling import panels_up_to
 from treadload.kernels.layers.layered import Body, Compliance, Scalars, Slab
-from treadload.kernels.layers.wavenumbers import gauss
 
 # Points of a panel, which spans a factor of two: what g lacks there falls like 6⁻ⁿ.
 _POINTS = 9
 # Wavenumbers end where exp(-2 k h₁) is 1e-10, and the panel at zero at this over the length of the basin.
 _END, _BEGIN = 11.5, 0.25
-# Half a turn of the Bessel functions is resolved to round-off by so many Gauss points.
-_GAUSS = 12
 # Pressures of a rigid plate: (1 - r²/a²)^(m - 1/2) for m below this; a fifth moves the settlement by less than 1e-4.
 _RIGID = 4
 
@@ -65,24 +60,13 @@ class Plate:
         inside = radius * np.cos((2 * np.arange(_RIGID) + 1) * math.pi / (4 * _RIGID)) if rigid else np.zeros(0)
         points = np.concatenate([inside, np.asarray(offsets, dtype=float)])
         direct = np.array([[_half_space(order, radius, float(r)) for r in points] for order in orders])
-        edges = [0.0, _BEGIN / basin]
-        limit = 2 * edges[1] if math.isinf(thinnest) else _END / thinnest
-        while edges[-1] < limit:
-            edges.append(2 * edges[-1])
-        unit = chebpts1(_POINTS)
-        to_series = np.linalg.inv(chebvander(unit, _POINTS - 1))
+        first = _BEGIN / basin
+        limit = 2 * first if math.isinf(thinnest) else _END / thinnest
         nodes, weights = [], []
-        for low, high in itertools.pairwise(edges):
-            nodes.append(0.5 * (high - low) * unit + 0.5 * (high + low))
-            turns = (high - low) * (radius + float(points.max(initial=0.0))) / math.pi
-            parts = max(1, math.ceil(turns))
-            at, share = gauss(_GAUSS)
-            ends = np.linspace(low, high, parts + 1)
-            k = (0.5 * np.diff(ends)[:, None] * at + 0.5 * (ends[1:] + ends[:-1])[:, None]).ravel()
-            w = (0.5 * np.diff(ends)[:, None] * share).ravel()
-            interpolate = chebvander((2 * k - low - high) / (high - low), _POINTS - 1) @ to_series
+        for at, k, w, shares in panels_up_to(first, limit, _POINTS, radius + float(points.max(initial=0.0))):
+            nodes.append(at)
             turned = scipy.special.j0(np.outer(points, k)) * w
-            weights.append(np.stack([(turned * _transform(order, k * radius)) @ interpolate for order in orders]))
+            weights.append(np.stack([(turned * _transform(order, k * radius)) @ shares for order in orders]))
         return cls(np.concatenate(nodes), np.concatenate(weights, axis=-1), direct, len(inside))
 
     def settlement(self, kernel: Array, top: Array) -> Array:

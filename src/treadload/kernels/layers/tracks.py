@@ -21,9 +21,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-from numpy.polynomial.chebyshev import chebpts1, chebvander
 
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
+from treadload.kernels.layers.doubling import interpolation, nodes_between
 from treadload.kernels.layers.moving import Path
 from treadload.kernels.layers.wavenumbers import Spectrum, gauss, panels
 
@@ -88,7 +88,7 @@ class Track:
         limit = _BEGIN if math.isinf(thinnest) else _END / thinnest
         beside = 2 * _END / gap
         steps = _edges(max(limit, beside))
-        knots = np.concatenate([_nodes(low, high, _ALONG) for low, high in itertools.pairwise(steps)])
+        knots = np.concatenate([nodes_between(low, high, _ALONG) for low, high in itertools.pairwise(steps)])
         direct = _of_half_space(lines, extent, x, y, beside, steps)
         none = _Part(np.zeros(0), np.zeros(0, int), np.zeros((len(x), 0), complex))
         parts = [none]
@@ -137,16 +137,6 @@ def _edges(limit: float) -> Array:
     return np.concatenate([[0.0], _BEGIN * 2.0 ** np.arange(count + 1)])
 
 
-def _nodes(low: float, high: float, count: int) -> Array:
-    return np.asarray(0.5 * (high - low) * chebpts1(count) + 0.5 * (high + low))
-
-
-def _interpolate(k: Array, low: float, high: float, count: int) -> Array:
-    """Shares (n, count) of the values at a panel's nodes in the value at k (n,)."""
-    series = np.linalg.inv(chebvander(chebpts1(count), count - 1))
-    return np.asarray(chebvander((2 * k - low - high) / (high - low), count - 1) @ series)
-
-
 def _fine(limit: float, extent: tuple[float, float]) -> Path:
     # Panels begin where the fields have nothing of their own below.
     return Path.of(limit, extent, 1e-7 / _BEGIN)
@@ -165,7 +155,7 @@ def _of_half_space(
     for panel, (low, high) in enumerate(itertools.pairwise(steps)):
         there = (kx >= low) & (kx < high)
         columns = slice(panel * _ALONG, (panel + 1) * _ALONG)
-        out[:, columns] = fine[there].T @ _interpolate(kx[there], low, high, _ALONG)
+        out[:, columns] = fine[there].T @ interpolation(kx[there], low, high, _ALONG)
     return out
 
 
@@ -191,7 +181,7 @@ def _of_layers(
         load = np.asarray(sum(spectrum(kx, ky) for spectrum in spectra))[:, 0]
         turn = ky * y
         wave = ((np.cos(turn) * wy)[:, None] * load[0] + 1j * (np.sin(turn) * wy)[:, None] * load[1]) / k
-        along = _interpolate(kx, low, high, _ALONG)
+        along = interpolation(kx, low, high, _ALONG)
         # (s · a, nkx): what a value of g at (ky, kx) does to each sensor through each knot of kx.
         carried = np.asarray(lines[rows].T[:, None, :] * along.T[None], dtype=complex).reshape(-1, len(rows))
         for below, above in itertools.pairwise(steps[number:]):
@@ -199,12 +189,12 @@ def _of_layers(
             if not inside.any():
                 continue
             columns = np.nonzero(inside)[1]
-            shares = _interpolate(k[inside], below, above, _POINTS) * (wave[inside] / math.pi**2)[:, None]
+            shares = interpolation(k[inside], below, above, _POINTS) * (wave[inside] / math.pi**2)[:, None]
             # Sums over ky first: (nkx, points).
             summed: ComplexArray = np.zeros((len(rows), _POINTS), complex)
             np.add.at(summed, columns, shares)
             block: ComplexArray = np.matmul(carried, summed).reshape(len(x), _ALONG * _POINTS)
-            nodes = np.tile(_nodes(below, above, _POINTS), _ALONG)
+            nodes = np.tile(nodes_between(below, above, _POINTS), _ALONG)
             at = np.repeat(number * _ALONG + np.arange(_ALONG), _POINTS)
             parts.append(_Part(nodes, at, block))
     return parts
