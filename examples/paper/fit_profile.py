@@ -34,7 +34,7 @@ SOURCE = (
     "peak pressure (1576 kPa) that Materials 2021, 14, 2117 prints for 35 kN at 820 kPa."
 )
 NOTES = "Five equal ribs, four grooves with vertical walls."
-DOUBTS = (
+CAVEATS = (
     "Fitted to two printed numbers, not measured on a tire.",
     "Groove depth: 15 mm, usual for a new truck tire; the contact does not depend on it as long as the floor stays "
     "clear of the road.",
@@ -48,7 +48,7 @@ def profile_of(crown: float, shoulder: float, groove: float, edge: float) -> tl.
     start = tl.catalogue.tires["315/80R22.5"]
     grooves = treadload.tire.equal_ribs(start.width, 4, groove, 0.015, edge_radius=edge)
     grooves = tuple(replace(g, centre=round(g.centre, 5)) for g in grooves)
-    texts = {"source": SOURCE, "notes": NOTES, "doubts": DOUBTS}
+    texts = {"source": SOURCE, "notes": NOTES, "caveats": CAVEATS}
     return replace(start, crown_radius=crown, shoulder_radius=shoulder, grooves=grooves, **texts)
 
 

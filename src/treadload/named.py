@@ -31,7 +31,7 @@ class Entry(Protocol):
         """Where its numbers are from."""
 
     @property
-    def doubts(self) -> tuple[str, ...]:
+    def caveats(self) -> tuple[str, ...]:
         """What is not certain about them, a sentence each."""
 
 
@@ -99,10 +99,10 @@ class Catalogue(Mapping[str, Item]):
         return [(name, self._words(item), item) for name, item in self._all().items()]
 
     def about(self, name: str) -> str:
-        """All that is known of one of them: its numbers, its source and its doubts. Raises InputError."""
+        """All that is known of one of them: its numbers, its source and its caveats. Raises InputError."""
         item = self[name]
-        doubts = [f"doubt: {doubt}" for doubt in item.doubts]
-        return "\n".join([f"{item.name}: {self._words(item)}", repr(item), f"source: {item.source or '–'}", *doubts])
+        caveats = [f"caveat: {caveat}" for caveat in item.caveats]
+        return "\n".join([f"{item.name}: {self._words(item)}", repr(item), f"source: {item.source or '–'}", *caveats])
 
     def __repr__(self) -> str:
         rows = self.rows()
@@ -118,10 +118,10 @@ class Catalogue(Mapping[str, Item]):
             return f"<tr>{''.join(f'{left}{text}</{cell}>' for text in cells)}</tr>"
 
         body = "".join(
-            row(html.escape(text) for text in (name, words, item.source, " ".join(item.doubts)))
+            row(html.escape(text) for text in (name, words, item.source, " ".join(item.caveats)))
             for name, words, item in self.rows()
         )
-        head = row(("name", "what it is", "source", "doubts"), "th")
+        head = row(("name", "what it is", "source", "caveats"), "th")
         return f"<table><caption>{html.escape(self.use)}</caption><thead>{head}</thead><tbody>{body}</tbody></table>"
 
     def _among(self, items: Mapping[str, Item], name: str) -> Item | None:

@@ -36,7 +36,7 @@ _LENGTHS = (("mm", 1e-3), ("cm", 1e-2), ("m", 1.0))
 _PRESSURES = (("kPa", 1e3), ("bar", 1e5), ("MPa", 1e6))
 
 RANGES: dict[str, Range] = {
-    # Over the width of the tread, N/m; see `load_doubt`.
+    # Over the width of the tread, N/m; see `load_caveat`.
     "wheel load": Range(
         "N", 200.0, 1e7, (7e3, 300e3), "a tire of this width usually carries", (("kN", 1e3),),
         "Per metre of width a bicycle carries 20, a car 25, a truck 110, an aircraft 450 and a steel wheel 2000 kN; "
@@ -121,7 +121,7 @@ RANGES: dict[str, Range] = {
 """One row per quantity; the key is its name in a sentence."""
 
 
-def doubt(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple[str, ...]:
+def caveat(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple[str, ...]:
     """A sentence where a value, SI, lies outside the range of its kind; nothing for one inside, NaN and infinity.
 
     kind: a key of RANGES. where: whose it is, for the sentence. scale: what the bounds are multiplied by.
@@ -144,9 +144,9 @@ def doubt(kind: str, value: float, where: str = "", scale: float = 1.0) -> tuple
     return (text,)
 
 
-def load_doubt(load: float, width: float, where: str = "") -> tuple[str, ...]:
+def load_caveat(load: float, width: float, where: str = "") -> tuple[str, ...]:
     """A sentence where a tire of a width, m, cannot carry a load, N."""
-    return doubt("wheel load", load, where, scale=width) if math.isfinite(width) and width > 0 else ()
+    return caveat("wheel load", load, where, scale=width) if math.isfinite(width) and width > 0 else ()
 
 
 def _meant(value: float, row: Range, usual: Sequence[float]) -> list[str]:

@@ -107,7 +107,7 @@ def test_life_then_report(tmp_path):
     tree = open_results(tmp_path / "design.nc").tree
     assert tree["life"].life_years.sel(criterion="base").item() > 0
     assert "NF P98-086" in tree["life"].attrs["sources"]
-    assert tree["life"].attrs["doubts"] == '[""]'
+    assert tree["life"].attrs["caveats"] == '[""]'
     assert tree["sensitivity"].elasticity.sizes["input"] > 8
     assert tl.Case.from_text(tree.attrs["case"]).build_traffic().years == 20
     reported = call("report", tmp_path / "design.nc", "-o", tmp_path / "r.html")
@@ -155,7 +155,7 @@ def test_one_catalogue_and_one_of_its_things(kind):
     name = next(iter(known))
     one = call("catalogue", kind, name)
     assert one.stdout.startswith(f"{name}: ")
-    for text in (known[name].source, *known[name].doubts):
+    for text in (known[name].source, *known[name].caveats):
         assert text in one.stdout
 
 

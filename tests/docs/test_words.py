@@ -50,8 +50,8 @@ PAGES = sorted(
     if page.name not in LEFT and page.relative_to(CLONE / "docs").parts[0] not in GENERATED
 )
 PAGES += [CLONE / "README.md", CLONE / "CONTRIBUTING.md"]
-# Texts that are no sentences for a reader: names in JavaScript and CSS, and keys that files have.
-NO_SENTENCE = re.compile(r"=>|\{font-family|^<span|\bdoubts\b\W*$")
+# Texts that are no sentences for a reader: names in JavaScript and CSS.
+NO_SENTENCE = re.compile(r"=>|\{font-family|^<span")
 
 
 def prose(page):

@@ -135,7 +135,7 @@ def test_a_fitted_line_finds_the_line_of_its_tests():
 
 def test_the_aged_line_states_that_its_slope_is_no_gain():
     """1.5 standard errors over -0.2 at a fitted level, by `benchmarks/aged_cores.py`; 2 are a gain."""
-    assert "is no gain over -0.2 on cores unseen (1.5 standard errors)" in AgedLine().doubt
+    assert "is no gain over -0.2 on cores unseen (1.5 standard errors)" in AgedLine().caveat
 
 
 CASE = """

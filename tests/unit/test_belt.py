@@ -330,8 +330,8 @@ def test_the_arc_of_a_tread_is_found_between_its_grooves():
 def test_belts_of_the_catalogue_are_those_of_the_defaults():
     known = tl.tire.Belt.from_library("315/80 R22.5")
     assert known is belts["315/80R22.5"]
-    assert replace(known, lateral=None, name="", source="", doubts=()) == tl.tire.Belt()
-    assert known.doubts
+    assert replace(known, lateral=None, name="", source="", caveats=()) == tl.tire.Belt()
+    assert known.caveats
     assert "Project Chrono" in known.source
 
 

@@ -34,7 +34,7 @@ def test_the_recalled_softening_gives_the_ratios_that_it_was_taken_from() -> Non
     assert math.exp(15 * RECALLED_SOFTENING) == pytest.approx(2.3, rel=0.08)
     assert math.exp(35 * RECALLED_SOFTENING) == pytest.approx(6, rel=0.08)
     least = TimedStrength.leutner_minimum("wearing")
-    assert "from memory" in least.doubt
+    assert "from memory" in least.caveat
     assert least.cohesion == pytest.approx(15e3 / (math.pi * 0.075**2))
 
 
@@ -58,22 +58,22 @@ def test_a_law_is_found_again_in_its_tests() -> None:
 def test_beyond_its_tests_a_strength_stays_on_the_safe_side_and_says_so() -> None:
     law = TimedStrength(0.85e6, 0.05, 0.2, temperatures=(10.0, 40.0), rates=(1e-5, 1e-2))
     assert law.at(0.0).cohesion == law.at(10.0).cohesion
-    assert "below 10 °C" in law.at(0.0).doubt
+    assert "below 10 °C" in law.at(0.0).caveat
     assert law.at(50.0).cohesion == pytest.approx(0.85e6 * math.exp(-1.5), rel=1e-12)
-    assert "above 40 °C" in law.at(50.0).doubt
+    assert "above 40 °C" in law.at(50.0).caveat
     assert law.at_rate(1.0).cohesion == law.at_rate(1e-2).cohesion
-    assert "faster than 600 mm/min" in law.at_rate(1.0).doubt
+    assert "faster than 600 mm/min" in law.at_rate(1.0).caveat
     assert law.at_rate(1e-6).cohesion < law.at_rate(1e-5).cohesion
-    assert "is extrapolated" in law.at_rate(1e-6).doubt
-    assert not law.at(25.0).at_rate(1e-3).doubt
+    assert "is extrapolated" in law.at_rate(1e-6).caveat
+    assert not law.at(25.0).at_rate(1e-3).caveat
 
 
 def test_a_wheel_shears_a_bond_in_the_time_that_it_takes_to_reach_it() -> None:
     # 0.1 + 0.06 m at 20 m/s are 8 ms; a test that fails at 2 mm must run 0.25 m/s to take as long.
     assert passage_rate(20.0, 0.06, 0.2) == pytest.approx(0.25, rel=1e-12)
     assert LAW.passing(20.0, 0.06, 0.2).cohesion == LAW.at_rate(0.25).cohesion
-    assert "no speed" in LAW.passing(None, 0.06, 0.2).doubt
-    assert TimedStrength(1e6, 0.05).passing(None, 0.06, 0.2).doubt == ""
+    assert "no speed" in LAW.passing(None, 0.06, 0.2).caveat
+    assert TimedStrength(1e6, 0.05).passing(None, 0.06, 0.2).caveat == ""
 
 
 def test_a_life_reads_the_bond_by_season_and_speed_and_names_its_interface() -> None:

@@ -236,7 +236,7 @@ def test_attributes_of_a_life_are_read_by_people():
     law = FrenchHydraulic(0.75e6, -1 / 15, 1.0, 0.05, 1.4)
     life = miner(np.ones((1, 1, 1, 2)), (Criterion("a", law),), Traffic((ONE,), 1e5), CLIMATE, y=[0.0, 0.1]).dataset
     assert "σ₆" in life.attrs["laws"]
-    for name in ("laws", "sources", "doubts", "ends"):
+    for name in ("laws", "sources", "caveats", "ends"):
         assert "\\u" not in life.attrs[name]
         assert json.loads(life.attrs[name])
 

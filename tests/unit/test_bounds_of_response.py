@@ -14,7 +14,7 @@ from treadload.materials import Elastic
 from treadload.pavement import Layer, Pavement
 from treadload.response import GridLoad, UniformDisc
 from treadload.response.fields import layer_in_words
-from treadload.response.input_caveats import overlapping, road_doubts
+from treadload.response.input_caveats import overlapping, road_caveats
 from treadload.response.moving import _cells_of_disc, _hats
 from treadload.response.superposition import merged
 
@@ -162,7 +162,7 @@ def test_a_bond_is_doubted_that_neither_holds_nor_slides(stiffness, told):
         else tl.pavement.Bond(stiffness=stiffness)
     )
     road = Pavement([Layer(Elastic(5e9, 0.35), 0.1, bond=bond), Layer(Elastic(1e8, 0.35))])
-    assert any("bond" in text for text in road_doubts(road)) == told
+    assert any("bond" in text for text in road_caveats(road)) == told
 
 
 def test_a_pair_stands_beside_where_its_wheel_stood():

@@ -140,7 +140,7 @@ def test_every_structure_can_be_built(name):
     road = Pavement.from_catalogue(name, temperature=15)
     assert Pavement.from_catalogue(found, temperature=15) == road
     assert not road.is_viscoelastic
-    assert "llustrative" in found.doubts[0] or "secondary source" in found.source
+    assert "llustrative" in found.caveats[0] or "secondary source" in found.source
     # The name tells the thicknesses in centimetres.
     told = [part.split() for part in name.split(" / ")]
     assert [layer.thickness for layer in road.layers[:-1]] == pytest.approx(
@@ -153,14 +153,14 @@ CATALOGUES = {"mixes": mixes, "structures": structures, "materials": materials, 
 
 
 @pytest.mark.parametrize("kind", CATALOGUES)
-def test_every_entry_says_where_it_is_from_and_what_to_doubt(kind):
+def test_every_entry_has_its_source_and_caveats(kind):
     known = CATALOGUES[kind]
     assert list(known) == [item.name for item in known.values()]
     for name, item in known.items():
         assert len(item.source) > 30, name
-        assert item.doubts, name
-        assert all(len(doubt) > 20 and doubt[-1] in ".:" for doubt in item.doubts), name
-        assert "\n" not in item.source + "".join(item.doubts), name
+        assert item.caveats, name
+        assert all(len(caveat) > 20 and caveat[-1] in ".:" for caveat in item.caveats), name
+        assert "\n" not in item.source + "".join(item.caveats), name
         # Descriptions stay hashable and compare by all that they hold.
         assert hash(item) == hash(known[name.lower()])
 
@@ -176,7 +176,7 @@ def test_a_catalogue_shows_itself(kind):
     for name, line in zip(known, told[1:], strict=True):
         assert name in line
         assert f">{name}<" in table
-        assert all(text in known.about(name) for text in (known[name].source, *known[name].doubts))
+        assert all(text in known.about(name) for text in (known[name].source, *known[name].caveats))
     with pytest.raises(TypeError):
         known["mine"] = known[name]
 
@@ -189,10 +189,10 @@ def test_an_unknown_name_is_wrong_input_and_a_missing_key():
     assert str(caught.value).startswith("no mix 'BBSG7'; did you mean 'BBSG")
 
 
-def test_numbers_of_one_mix_have_doubts_of_their_own():
-    shared = mixes["GB3"].doubts
-    assert mixes["BBM"].doubts[-1] == shared[0]
-    assert "no fatigue line" in mixes["BBM"].doubts[0]
+def test_numbers_of_one_mix_have_caveats_of_their_own():
+    shared = mixes["GB3"].caveats
+    assert mixes["BBM"].caveats[-1] == shared[0]
+    assert "no fatigue line" in mixes["BBM"].caveats[0]
     assert mixes["BBM"].epsilon_6 is None
 
 
@@ -200,11 +200,11 @@ def test_the_mesh_of_the_catalogue_is_read_as_a_scan(file, tmp_path):
     mesh = tires["335/65R22.5"]
     assert Path(mesh) == mesh.path == example_mesh()
     (tmp_path / "mine.ply").write_bytes(b"")
-    text = 'name = "mine"\nmesh = "mine.ply"\ntitle = "drawn"\nsource = "me"\ndoubts = ["all"]\n'
+    text = 'name = "mine"\nmesh = "mine.ply"\ntitle = "drawn"\nsource = "me"\ncaveats = ["all"]\n'
     assert read_tires(file(text)) == [TireMesh("mine", tmp_path / "mine.ply", "drawn", "me", ("all",))]
     for old, new, message in (
         ("mine.ply", "other.ply", "no mesh file .*other.ply"),
-        ('["all"]', '"all"', "doubts: must be a list, got 'all'"),
+        ('["all"]', '"all"', "caveats: must be a list, got 'all'"),
         ("title", "titel", "unknown key 'titel'; did you mean 'title'"),
         ('"me"', "3", "mine.toml: source: .*got 3"),
     ):
@@ -279,7 +279,7 @@ def test_broken_packages_are_named_and_stop_no_one(offer, function, message):
         ("[unbound]", "[unbound", "cannot read .*mine.toml"),
         ("[unbound]", "[unbounded]", "unknown key 'unbounded'; did you mean 'unbound'"),
         ('source = "A laboratory\'s own measurements."', "", "mine.toml: 'source' is missing"),
-        ('source = "A', 'doubts = "none"\nsource = "A', "mine.toml: doubts"),
+        ('source = "A', 'caveats = "none"\nsource = "A', "mine.toml: caveats"),
     ],
 )
 def test_bad_files_of_mixes(file, old, new, message):

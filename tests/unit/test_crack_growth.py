@@ -133,7 +133,7 @@ def test_units_of_paris_law():
     # log A = 4.389 - 2.52 log(5000 x 4 x 4).
     own = FromStrength(4.0, 4e6).at(5e9)
     assert in_millimetres(own) == pytest.approx(10 ** (4.389 - 2.52 * math.log10(80_000)), rel=1e-12)
-    assert "memory" in own.doubt
+    assert "memory" in own.caveat
 
 
 def test_law_of_a_mix():

@@ -111,7 +111,7 @@ def test_energy_ratio_falls_with_tension():
     assert np.isinf(ratio[:2]).all()
     assert (np.diff(ratio[2:]) < 0).all()
     assert MIX.verified
-    assert not MIX.doubt
+    assert not MIX.caveat
 
 
 PSI = 6894.757293168361

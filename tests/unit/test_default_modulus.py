@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from treadload.tire.modulus import modulus_doubt
+from treadload.tire.modulus import modulus_caveat
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
 SEDAN = tl.tire.TreadProfile(0.317, 0.8, 0.18, 0.01)
@@ -34,8 +34,8 @@ def test_a_tire_that_is_no_truck_tire_is_told(profile, pressure, load, words):
 def test_the_truck_tires_of_the_readme_are_not():
     assert not said(tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3), 32.5e3)[1]
     # The example mesh, 1.009 m at 820 kPa, and 385/65R22.5 at 900 kPa.
-    assert modulus_doubt(820e3, 1.009) is None
-    assert modulus_doubt(900e3, 1.072) is None
+    assert modulus_caveat(820e3, 1.009) is None
+    assert modulus_caveat(900e3, 1.072) is None
 
 
 def test_a_belt_has_no_modulus_from_its_inflation():

@@ -56,7 +56,7 @@ LAWS = [
 def test_what_every_law_tells(law):
     assert isinstance(law.reads, Quantity)
     assert law.source
-    assert law.verified == (not law.doubt)
+    assert law.verified == (not law.caveat)
     low, high = law.validity
     assert 0 < low < high
     # Round-off of a power, amplified by an exponent of at most 15.
@@ -83,8 +83,8 @@ def test_unverified_numbers_are_said_where_the_law_speaks(law):
     said = warnings_of(law, np.array([inside, 0.0, np.nan]))
     assert len(said) == (not law.verified)
     if not law.verified:
-        assert law.doubt in said[0]
-        assert "from memory" in law.doubt
+        assert law.caveat in said[0]
+        assert "from memory" in law.caveat
         told = " ".join(type(law).__doc__.split())
         assert "ot verified" in told
 
@@ -109,7 +109,7 @@ def test_what_is_verified():
 
 
 def test_a_given_scatter_of_the_thickness_stands_before_the_rule():
-    """The rule is read in the cited source by now, so that neither way leaves a doubt."""
+    """The rule is read in the cited source by now, so that neither way leaves a caveat."""
     given_one = FrenchBituminous(90e-6, -0.2, 0.3, 0.15, 0.05, 1.3, thickness_scatter=0.025)
     assert given_one.verified
     assert GB3.verified
@@ -309,7 +309,7 @@ def test_a_cement_treated_base_bears_its_strength_once_or_twice():
     low, high = law.validity
     assert law.allowable_passes(np.array([low, high])) == pytest.approx([1e8, 1e4], rel=1e-9)
     assert not law.verified
-    assert "no printed answer" in law.doubt
+    assert "no printed answer" in law.caveat
 
 
 def test_moduli_of_the_indian_guideline():

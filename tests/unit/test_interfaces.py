@@ -112,8 +112,8 @@ def test_leutner_forces_become_stresses():
     assert InterfaceStrength.from_leutner(7e3, 0.1).cohesion == pytest.approx(7e3 / (math.pi * 0.05**2), rel=1e-12)
     least = InterfaceStrength.leutner_minimum("lower")
     assert least.cohesion == InterfaceStrength.from_leutner(LEUTNER_MINIMUM["lower"]).cohesion
-    assert "no source" in least.doubt
-    assert "no source" in Criterion.of_bond("bond", least, ShearFatigue(-0.2)).quantity.doubt
+    assert "no source" in least.caveat
+    assert "no source" in Criterion.of_bond("bond", least, ShearFatigue(-0.2)).quantity.caveat
 
 
 def test_strengths_follow_their_temperature():

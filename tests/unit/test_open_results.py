@@ -3,6 +3,7 @@
 import html
 import json
 import math
+import re
 from collections import defaultdict
 from dataclasses import fields, replace
 from functools import cache
@@ -70,7 +71,7 @@ def on_texture():
 
 
 def bonds():
-    strength = tl.damage.InterfaceStrength(cohesion=3e5, friction_angle=0.6, doubt="made up")
+    strength = tl.damage.InterfaceStrength(cohesion=3e5, friction_angle=0.6, caveat="made up")
     fields = tl.life.solve_interfaces(contact(), ROAD, x=AT, y=AT)
     return tl.damage.assess_bonds(fields, strength, tl.damage.ShearFatigue(slope=-0.2))
 
@@ -816,3 +817,20 @@ def test_a_case_and_its_text_make_one_report(coarse_result, tmp_path, without_fi
     assert ">coarse<" in page
     assert ">other<" in page
     assert set(as_tree(coarse_result).children) == {*coarse_result.parts, "asked"}
+
+
+def test_files_with_a_former_name_of_the_caveats_open(tmp_path):
+    tree = as_tree([life(), bonds()])
+    for part in tree.subtree:
+        former = {"caveats": "doubts"}
+        part.attrs = {
+            former.get(name, name): re.sub(r'"caveat(s?)"', r'"doubt\1"', text) if isinstance(text, str) else text
+            for name, text in part.attrs.items()
+        }
+    assert '"doubt"' in tree["asked"].attrs["questions"]
+    assert "doubts" in tree["life"].attrs
+    opened = tl.open_results(tl.save_results(tree, tmp_path / "former.nc"))
+    assert opened.bonds.strengths[0].caveat == "made up"
+    assert opened.bonds.law.caveat == ""
+    assert json.loads(opened.life.dataset.attrs["caveats"]) == json.loads(life().dataset.attrs["caveats"])
+    assert opened.life.summary() == life().summary()

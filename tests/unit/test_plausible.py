@@ -8,8 +8,8 @@ import pytest
 
 import treadload as tl
 from cases import COARSE_CASE
-from treadload.life.caveats import traffic_doubts
-from treadload.plausible import RANGES, doubt, load_doubt
+from treadload.life.caveats import traffic_caveats
+from treadload.plausible import RANGES, caveat, load_caveat
 from treadload.steps import run
 
 TRUCK = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
@@ -24,13 +24,13 @@ def test_every_range_has_a_reason_and_holds_what_is_usual(kind):
     assert row.reason
     assert row.low <= row.usual[0] < row.usual[1] <= row.high
     for value in (*row.usual, math.nan, math.inf):
-        assert doubt(kind, value) == ()
+        assert caveat(kind, value) == ()
     # Beyond, not at, the bounds.
-    assert doubt(kind, row.low) == ()
-    assert doubt(kind, row.low - 1e-9 * max(abs(row.low), 1))
+    assert caveat(kind, row.low) == ()
+    assert caveat(kind, row.low - 1e-9 * max(abs(row.low), 1))
     if math.isfinite(row.high):
-        assert doubt(kind, row.high) == ()
-        assert doubt(kind, row.high * 1.001)
+        assert caveat(kind, row.high) == ()
+        assert caveat(kind, row.high * 1.001)
 
 
 @pytest.mark.parametrize(
@@ -52,18 +52,18 @@ def test_every_range_has_a_reason_and_holds_what_is_usual(kind):
     ],
 )
 def test_the_unit_that_was_likely_meant_is_named(kind, value, meant):
-    (text,) = doubt(kind, value)
+    (text,) = caveat(kind, value)
     assert meant in text
     assert f"{value:g}" in text
 
 
 def test_a_load_is_judged_by_the_width_of_its_tire():
     # 32.5 N on a truck tire, and the same on the wheel of a robot; an aircraft's, and the same on a bicycle's.
-    (text,) = load_doubt(32.5, 0.292)
+    (text,) = load_caveat(32.5, 0.292)
     assert 'carries 2 to 88 kN: did you mean "32.5 kN"?' in text
-    assert load_doubt(32.5, 0.03) == ()
-    assert load_doubt(200e3, 0.43) == ()
-    assert load_doubt(500e3, 0.025)
+    assert load_caveat(32.5, 0.03) == ()
+    assert load_caveat(200e3, 0.43) == ()
+    assert load_caveat(500e3, 0.025)
 
 
 def test_a_contact_says_what_no_tire_does():
@@ -144,7 +144,7 @@ def test_a_class_is_judged_by_its_own_tire():
         tl.damage.AxleClass("robot", 0.5, 20.0, 5e4, tire=narrow),
         tl.damage.AxleClass("truck", 0.5, 20.0, 8e5),
     ]
-    said = traffic_doubts(TRUCK, tl.damage.Traffic(tuple(rows), 1e5), tl.damage.Climate.constant(15.0))
+    said = traffic_caveats(TRUCK, tl.damage.Traffic(tuple(rows), 1e5), tl.damage.Climate.constant(15.0))
     assert len(said) == 1
     assert "wheel load of truck is 20 N" in said[0]
 

@@ -103,7 +103,7 @@ def test_questions_are_checked(change, told):
         solve_texture(asked.pop("texture"), asked.pop("rubber"), asked.pop("pressures"), **asked)
 
 
-def test_doubts_are_said():
+def test_caveats_are_said():
     steep = tx.Texture(8 * PATCH.heights[:1], PATCH.dx, PATCH.dy, periodic=True)
     said = " ".join(solve_texture(steep, RUBBER, [5e6]).warnings)
     for told in ("rms slope of", "may not stand for the road" if steep.length < 6 * steep.mean_wave else "profile",

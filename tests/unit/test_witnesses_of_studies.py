@@ -18,7 +18,7 @@ from treadload.damage.miner import miner
 from treadload.damage.uniform import COMPUTED, DISC, RECTANGLE, compare_uniform
 from treadload.errors import InputError
 from treadload.life import life_sensitivity
-from treadload.life.caveats import traffic_doubts
+from treadload.life.caveats import traffic_caveats
 from treadload.life.contacts import Contacts
 from treadload.life.delamination import AFTER, BEFORE, PARTING, BondComparison
 from treadload.life.passages import solve_passages
@@ -113,14 +113,14 @@ def test_readings_reach_a_foot_beyond_the_outermost_wheel_on_either_side(wheels)
     np.testing.assert_allclose(steps, steps[0], rtol=1e-9)
 
 
-def test_doubts_ask_the_tire_of_the_class():
+def test_caveats_ask_the_tire_of_the_class():
     """Forty, meant as kilonewtons: too little for a truck's tire, and not for the trolley's of the other classes."""
     narrow = Tire.from_profile(TreadProfile(0.3, 0.6, 0.06, 0.008), inflation_pressure=8e5)
     wide = Tire.from_profile(TreadProfile(0.54, 1.7, 0.38, 0.009), inflation_pressure=8e5)
     light = AxleClass("light", 1.0, 40.0, 8e5)
 
     def loads_doubted(row, common=narrow):
-        return [text for text in traffic_doubts(common, Traffic((row,), 1e5), CLIMATE) if "load" in text]
+        return [text for text in traffic_caveats(common, Traffic((row,), 1e5), CLIMATE) if "load" in text]
 
     assert not loads_doubted(light)
     assert loads_doubted(light, common=wide) == loads_doubted(replace(light, tire=wide)) != []

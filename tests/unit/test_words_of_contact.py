@@ -1,4 +1,4 @@
-"""What a contact says of itself in words: the numbers of its fields, and what it doubts."""
+"""What a contact says of itself in words: the numbers of its fields, and what it caveats."""
 
 import math
 import re
@@ -109,16 +109,16 @@ def test_a_history_above_a_loose_interface_needs_a_wheel_without_friction():
 def test_a_modulus_by_inflation_is_doubted_for_a_tire_of_another_size():
     """The line was fitted to a truck tire: its diameter counts where it is known."""
 
-    def doubts(radius, pressure=8e5):
+    def caveats(radius, pressure=8e5):
         profile = TreadProfile(radius, 1.2, 0.2, 0.008)
         return [
             text for text in of_tire(Tire.from_profile(profile, inflation_pressure=pressure)) if "modulus" in text
         ]
 
-    assert doubts(0.52) == []
-    (small,) = doubts(0.3)
+    assert caveats(0.52) == []
+    (small,) = caveats(0.3)
     assert "an outer diameter of 0.6 m" in small
-    (soft,) = doubts(0.52, 2e5)
+    (soft,) = caveats(0.52, 2e5)
     assert "200 kPa" in soft
     assert "diameter" not in soft
     # Whoever gives the material knows it.

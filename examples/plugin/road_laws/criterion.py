@@ -21,7 +21,7 @@ class TestTrack(PowerLaw):
     # The quantity that the law is a law of: the largest tensile strain.
     reads = FatigueLine.reads
     source: ClassVar[str] = "our test track, 2025"
-    doubt: ClassVar[str] = "one mix, one temperature"
+    caveat: ClassVar[str] = "one mix, one temperature"
     end_of_life: ClassVar[str] = "the first crack"
 
     @property

@@ -22,7 +22,7 @@ from treadload.read import by_key
 from treadload.tire import TreadProfile
 
 # Texts that are never the path of a file.
-_WORDS = ("title", "name", "source", "notes", "doubts")
+_WORDS = ("title", "name", "source", "notes", "caveats")
 # A road whose mixes wait for a temperature gets this one.
 _TEMPERATURE, _USUAL = "pavement.temperature", 15
 

@@ -243,7 +243,7 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, object]) 
     tire, friction = problem.at(search_result.values)
     comparisons = _compared(problem, tire, friction)
     warnings = [
-        *_doubts(problem, search_result, lost, square, left, errors_stated),
+        *_caveats(problem, search_result, lost, square, left, errors_stated),
         *(f"footprint: {text}" for comparison in comparisons for text in comparison.warnings),
     ]
     return Calibration(
@@ -252,7 +252,7 @@ def solution(problem: Problem, search_result: Fit, stats: Mapping[str, object]) 
     )  # fmt: skip
 
 
-def _doubts(
+def _caveats(
     problem: Problem, search_result: Fit, lost: BoolArray, square: float, left: int, errors_stated: bool
 ) -> list[str]:
     caveats = []

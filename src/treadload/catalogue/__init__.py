@@ -1,4 +1,4 @@
-"""Named things with their sources and doubts: mixes, structures, viscoelastic materials, tires and belts.
+"""Named things with their sources and caveats: mixes, structures, viscoelastic materials, tires and belts.
 
 Each is a read-only mapping, `catalogue.mixes["BBSG3"]`; other packages bring more by entry points, see the `group` of
 each. The readers take files like those in `catalogue/data`.

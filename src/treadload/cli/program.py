@@ -34,7 +34,7 @@ def catalogue(
     for shelf in kinds.values() if not kind else [kinds[kind]]:
         table = Table(shell.names(), "what it is", "notes", title=shelf.use, title_justify="left")
         for item_name, words, item in shelf.rows():
-            notes_of_item = [text for text in (item.source, *item.doubts) if text]
+            notes_of_item = [text for text in (item.source, *item.caveats) if text]
             marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in notes_of_item)
             table.add_row(item_name, Text(words), Text(marks))
         shell.out.print(table)

@@ -10,11 +10,11 @@ import xarray as xr
 from treadload.contact.rolling_state import Rolling
 from treadload.grid import Grid
 from treadload.materials import Elastic
-from treadload.plausible import doubt, load_doubt
+from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
-from treadload.tire.belt import belt_doubt
+from treadload.tire.belt import belt_caveat
 from treadload.tire.cross_section import TreadSection
-from treadload.tire.modulus import modulus_doubt
+from treadload.tire.modulus import modulus_caveat
 from treadload.tire.surface import HeightMapSurface
 from treadload.tire.undertread import UNDERTREAD
 
@@ -43,12 +43,12 @@ def of_tire(tire: Tire) -> list[str]:
         )
     if tire.material is None and tire.belt is None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
-        doubt_of_modulus = modulus_doubt(tire.inflation_pressure, None if radius is None else 2 * radius)
-        warnings += [] if doubt_of_modulus is None else [doubt_of_modulus]
+        caveat_of_modulus = modulus_caveat(tire.inflation_pressure, None if radius is None else 2 * radius)
+        warnings += [] if caveat_of_modulus is None else [caveat_of_modulus]
     if tire.belt is not None and tire.inflation_pressure is not None:
         radius = tire.outer_radius
-        doubt_of_modulus = belt_doubt(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
-        warnings += [] if doubt_of_modulus is None else [doubt_of_modulus]
+        caveat_of_modulus = belt_caveat(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
+        warnings += [] if caveat_of_modulus is None else [caveat_of_modulus]
     if tire.tread == "ribs" and tire.belt is not None and tire.belt.tread.poisson < _RUBBER:
         warnings.append(
             f"the ribs have a Poisson's ratio of {tire.belt.tread.poisson:g}, as of a layer that stands for grooves "
@@ -108,17 +108,19 @@ def of_rolling(tire: Tire, rolling: Rolling) -> list[str]:
 def of_numbers(tire: Tire, rolling: Rolling, grid: Grid) -> list[str]:
     """Loads, pressures, speeds, cells that no tire has, with the unit that was likely meant."""
     length, width = tire.extent
-    warnings = doubt("width of the surface", width) or doubt("width of the surface", length)
+    warnings = caveat("width of the surface", width) or caveat("width of the surface", length)
     if rolling.normal_load is not None:
-        warnings += load_doubt(rolling.normal_load, width)
+        warnings += load_caveat(rolling.normal_load, width)
     if tire.inflation_pressure is not None:
-        warnings += doubt("inflation pressure", tire.inflation_pressure)
+        warnings += caveat("inflation pressure", tire.inflation_pressure)
     if isinstance(tire.material, Elastic):
-        warnings += doubt("modulus of the tire", tire.material.modulus)
-    warnings += doubt("friction", rolling.law.largest)
+        warnings += caveat("modulus of the tire", tire.material.modulus)
+    warnings += caveat("friction", rolling.law.largest)
     if rolling.speed is not None:
-        warnings += doubt("speed", rolling.speed)
-    warnings += doubt("size of the cells", min(grid.dx, grid.dy)) or doubt("size of the cells", max(grid.dx, grid.dy))
+        warnings += caveat("speed", rolling.speed)
+    warnings += caveat("size of the cells", min(grid.dx, grid.dy)) or caveat(
+        "size of the cells", max(grid.dx, grid.dy)
+    )
     return list(warnings)
 
 

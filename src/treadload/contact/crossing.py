@@ -22,7 +22,7 @@ from treadload.contact import cautions
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.contact_grid import cell_across, check_border, place
-from treadload.contact.crossing_fields import STRIDE, Moved, Scene, doubts, fields_of
+from treadload.contact.crossing_fields import STRIDE, Moved, Scene, caveats, fields_of
 from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.relief import above, check_step
@@ -175,7 +175,7 @@ def cross_obstacle(
         "seconds": time.perf_counter() - began,
     }
     data = fields_of(scene, contacts, rubbed, plain)
-    warnings = (*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, grid), *doubts(scene, hold, data))
+    warnings = (*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, grid), *caveats(scene, hold, data))
     return Crossing(data, tire, road, rolling, relief, hold, stats, warnings)
 
 

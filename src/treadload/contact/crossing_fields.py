@@ -1,4 +1,4 @@
-"""What a road and a wheel have of a crossing: fields over its positions and along the road, and what to doubt."""
+"""What a road and a wheel have of a crossing: fields over its positions and along the road, and its caveats."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def _share(along: Array, side: Array, load: float) -> float:
     return float(along[side].sum()) / load if load > 0 else 0.0
 
 
-def doubts(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
+def caveats(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
     """What a crossing leaves out, and what of it belongs to the cells: sentences for the user."""
     caveats = [
         "the road below an edge is taken for a half-space, or layers, that go on without end: its own free edge, and "

@@ -104,7 +104,7 @@ def check_step(relief: Relief, cell: float) -> None:
         )
 
 
-def doubts_of(relief: Relief, grid: Grid) -> Sequence[str]:
+def caveats_of(relief: Relief, grid: Grid) -> Sequence[str]:
     """What the cells of a contact cannot tell of the road's relief."""
     finest = getattr(relief, "finest_wave", None)
     step = max(grid.dx, grid.dy)

@@ -239,7 +239,7 @@ def solve_texture(
         "cells": heights.size,
         "seconds": time.perf_counter() - began,
     }
-    return TextureContact(data, stats, tuple(_doubts(texture, tread, rows)))
+    return TextureContact(data, stats, tuple(_caveats(texture, tread, rows)))
 
 
 def _steps(pressures: Sequence[float] | Array | Contact, reference: float | None) -> tuple[list[float], float]:
@@ -314,7 +314,7 @@ def _dataset(
     )  # fmt: skip
 
 
-def _doubts(texture: Texture, tread: TreadRubber, rows: Sequence[Mapping[str, float]]) -> list[str]:
+def _caveats(texture: Texture, tread: TreadRubber, rows: Sequence[Mapping[str, float]]) -> list[str]:
     caveats = []
     if texture.rms_slope > _STEEP:
         caveats.append(

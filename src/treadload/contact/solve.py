@@ -24,7 +24,7 @@ from treadload.contact.contact_grid import (
 )
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
-from treadload.contact.relief import above, check_step, doubts_of, heights_on
+from treadload.contact.relief import above, caveats_of, check_step, heights_on
 from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
@@ -236,7 +236,7 @@ def _contact(
         *cautions.of_tire(tire),
         *cautions.of_rolling(tire, rolling),
         *cautions.of_numbers(tire, rolling, grid),
-        *(() if relief is None else doubts_of(relief, grid)),
+        *(() if relief is None else caveats_of(relief, grid)),
     ]
     area = float((normal.pressure > 0).sum()) * grid.cell_area
     if relief is None:

@@ -38,7 +38,7 @@ class FieldShift:
     predicted_aged: geometric means over the sections of the years that the mechanics predict at the surface, by the
     `LINES`. thickness: of the asphalt, m, mean_surface: of the road's surface over the year, °C, and traffic:
     standard axles of 80 kN a year, within which the shift holds. mean_air: of the sections' air over the year, °C,
-    from which mean_surface follows by the priors. source: of the data. doubts: what is not certain, a sentence each.
+    from which mean_surface follows by the priors. source: of the data. caveats: what is not certain, a sentence each.
     Raises InputError.
     """
 
@@ -59,7 +59,7 @@ class FieldShift:
     mean_surface: tuple[float, float]
     traffic: tuple[float, float]
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         for name in ("level", "level_error", "scatter", "predicted_fresh", "predicted_aged"):
@@ -154,7 +154,7 @@ def read_field_shifts(path: str | os.PathLike[str]) -> list[FieldShift]:
 
     shift: FieldShift = read(FieldShift, read_tables(Path(path)), str(path))
     texts = {name: sentence(getattr(shift, name)) for name in ("source", "likelihood")}
-    return [FieldShift(**{**vars(shift), **texts, "doubts": tuple(map(sentence, shift.doubts))})]
+    return [FieldShift(**{**vars(shift), **texts, "caveats": tuple(map(sentence, shift.caveats))})]
 
 
 field_shifts: Mapping[str, FieldShift] = Catalogue(

@@ -30,7 +30,7 @@ a solution to its tolerance leaves of a wheel that rolls freely."""
 
 _INCH = 0.0254
 _FEWEST = 3
-_DOUBTS = (
+_CAVEATS = (
     "its factor of depth was read in a public program, not in a document; the ratio itself is the national "
     "calibration of NCHRP 1-37A (2004) for strain at points under uniform discs"
 )
@@ -107,7 +107,7 @@ def asphalt_rut(
     vertical compression along x, T the temperature, °C in [5, 65] here and °F in the formula, N the passes, > 0.
     k_z = (C₁ + C₂ z) 0.328196^z, C₁ = -0.1039 h² + 2.4868 h - 17.342, C₂ = 0.0172 h² - 1.7331 h + 27.428, z and the
     thickness h of all asphalt in inches, at least 0. thickness: h, m; left out, that of the bituminous layers.
-    The attribute `warnings` has its doubt. Raises InputError.
+    The attribute `warnings` has its caveat. Raises InputError.
     Source: NCHRP 1-37A (2004), part 3, chapter 3; k_z as coded in ProductOneME (commit c89fe2b).
     """
     positive("passes", passes, remedy="a rut needs at least one")
@@ -126,7 +126,7 @@ def asphalt_rut(
     factor = depth_factor(depths[within], whole) * law.factor * passes**law.exponent
     rut = np.trapezoid(strain * factor[:, None], depths[within], axis=0)
     field = _over(rut, data, "asphalt_rut")
-    return field.assign_attrs(warnings=json.dumps([f"rut of the asphalt: {_DOUBTS}"], ensure_ascii=False))
+    return field.assign_attrs(warnings=json.dumps([f"rut of the asphalt: {_CAVEATS}"], ensure_ascii=False))
 
 
 def depth_factor(depth: Array, thickness: float) -> Array:

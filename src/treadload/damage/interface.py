@@ -214,7 +214,7 @@ def assess_bonds(
         warmed.append(at)
         if at is not None:
             used[k] = at.utilisation(shear[k], pressed[k])
-            warnings += [f"{_named(fields.isel(interface=k))}: {text}" for text in _doubts(at, pressed[k])]
+            warnings += [f"{_named(fields.isel(interface=k))}: {text}" for text in _caveats(at, pressed[k])]
     x, y, depths = (fields[name].to_numpy() for name in ("x", "y", "depth"))
     places: list[WorstOfBond | None] = [
         None if strength is None else worst_of_bond(above, strength, depth, x, y, shear[k], pressed[k])
@@ -252,8 +252,8 @@ def _at_worst(interface: xr.Dataset) -> dict[str, float]:
     return {name: float(near[f"interface_{name}"]) for name in names}
 
 
-def _doubts(strength: BondStrength, pressed: Array) -> list[str]:
-    caveats = [strength.doubt] if strength.doubt else []
+def _caveats(strength: BondStrength, pressed: Array) -> list[str]:
+    caveats = [strength.caveat] if strength.caveat else []
     tension = float(-pressed.min())
     # Tension that matters: a hundredth of what presses. Less stands everywhere around a load.
     if tension > 0.01 * float(np.abs(pressed).max()) and math.isinf(strength.tension_limit):

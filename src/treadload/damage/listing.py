@@ -95,7 +95,7 @@ def _numbers(registry: Registry, name: str) -> str:
     texts = []
     taken = parameters(registry.find(name).target, (OnLayer,))
     for key, (hint, default) in taken.items():
-        if key in ("reads", "doubt"):
+        if key in ("reads", "caveat"):
             continue
         units = [mark.si for mark in _marks(hint) if isinstance(mark, Unit)]
         text = f"{key} ({units[0]})" if units and units[0] else key

@@ -252,7 +252,7 @@ class MazarsOnset(MazarsStrain):
             raise InputError(f"mazars_onset must be a plain strain in (0, 0.01), got {self.onset}; 100e-6 is usual")
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """The onset, where it is ours."""
         return "the strain at which damage begins is from memory" if self.onset == MAZARS_ONSET else ""
 

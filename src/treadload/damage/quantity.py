@@ -124,7 +124,7 @@ class Quantity(ABC):
         return None
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """Which of its numbers have no source that could be read, in words; empty if none."""
         return ""
 

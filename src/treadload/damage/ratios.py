@@ -79,7 +79,7 @@ class EnergyDemand(HorizontalTension):
     )
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """That a computed stress is no conventional one."""
         return "the stress of the energy ratio is the computed one, while its sources use a conventional one"
 

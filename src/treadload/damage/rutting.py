@@ -18,7 +18,7 @@ _WETTEST, COLDEST, WARMEST = 0.4, 5.0, 65.0
 _FIRST, _LAST, _PASSES = 0.15, 20.0, 1e9
 # Calibration of the unbound layers, and of the soil, in 2004.
 UNBOUND, SOIL = 1.673, 1.35
-DOUBT = (
+CAVEAT = (
     "the rut's factor of depth in the asphalt and the numbers of its soil were read in a public program that codes "
     "NCHRP 1-37A (2004), not in the guide; both were calibrated for strain at points under uniform discs"
 )

@@ -35,7 +35,7 @@ DIRECTIONS = ("transverse", "longitudinal")
 CAUSES = ("hogging", "tread", "braking or driving")
 """What opens the first crack: the basin away from the footprints, what is near them, the longitudinal force."""
 
-PER_CRITERION = ("laws", "sources", "doubts", "reads")
+PER_CRITERION = ("laws", "sources", "caveats", "reads")
 """Attributes of a life with an entry for each criterion, JSON."""
 OF_SENSITIVITY = ("sensitivity_contacts", "sensitivity_responses", "sensitivity_coverage")
 """Attributes of a life that holds its sensitivities, too: all or none."""
@@ -256,8 +256,8 @@ def criteria_attributes(criteria: Sequence[Criterion], laws: Sequence[FatigueLaw
     texts_by_name: dict[str, list[Any]] = {
         "laws": [str(criterion.law_at(15.0)) for criterion in criteria],
         "sources": [criterion.law_at(15.0).source for criterion in criteria],
-        "doubts": [
-            "; ".join(filter(None, (law.doubt, criterion.quantity.doubt)))
+        "caveats": [
+            "; ".join(filter(None, (law.caveat, criterion.quantity.caveat)))
             for law, criterion in zip(laws, criteria, strict=True)
         ],
         "ends": [law.end_of_life for law in laws],
@@ -290,9 +290,9 @@ def cautions(
         for text in range_warnings(laws[k], readings[k].max(axis=(2, 3)), shares[k], names)
     ]
     warnings += [
-        f"{criterion.name}: {criterion.quantity}: {criterion.quantity.doubt}"
+        f"{criterion.name}: {criterion.quantity}: {criterion.quantity.caveat}"
         for criterion in criteria
-        if criterion.quantity.doubt
+        if criterion.quantity.caveat
     ]
     warnings += [
         f"{criterion.name}: its law was calibrated on roads on which wheels wander, so that the traffic's wander is "

@@ -161,7 +161,7 @@ def compare(
         sensor = laid(sensor, pose.quarter_turns, pose.mirrored)
     sensor = sensor.moved(pose.shift_x, pose.shift_y)
     data, more = _maps(load, sensor, pose, ribs)
-    warnings += [*_pose_doubts(pose), *more]
+    warnings += [*_pose_caveats(pose), *more]
     print_ = replace(sensor, warnings=())
     return FootprintComparison(data, print_, pose, {"candidates": dict(pose.candidates)}, tuple(warnings))
 
@@ -253,7 +253,7 @@ def _registered(load: GridLoad, sensor: Footprint, how: str) -> Registration:
     return register(load, sensor, turns=how == "full") if sensor.pin is None else register_pins(load, sensor)
 
 
-def _pose_doubts(pose: Registration) -> list[str]:
+def _pose_caveats(pose: Registration) -> list[str]:
     caveats = []
     if pose.quarter_turns or pose.mirrored:
         as_is = pose.candidates.get("as it stands")
@@ -326,13 +326,13 @@ def _maps(
     attrs = {"pose": pose.words, "sentence": sentence, "footprint": sensor.source, "dx": grid.dx, "dy": grid.dy}
     attrs |= {"candidates": json.dumps(pose.candidates)}
     beyond = 1 - float(whole.sum()) * grid.cell_area / load.normal_load
-    doubts = []
+    caveats = []
     if beyond > _BEYOND and sensor.pin is None:
-        doubts.append(
+        caveats.append(
             f"{100 * beyond:.2g} % of the computed load lies beyond the sensor's cells; areas and shares are of what "
             "lies on it"
         )
-    return variables.dataset(fields, coordinates, **attrs), doubts
+    return variables.dataset(fields, coordinates, **attrs), caveats
 
 
 def _correlation(first: Array, second: Array) -> float:

@@ -47,7 +47,7 @@ class Reading:
     """A kind of reading of a tire.
 
     words: what it is. unit: SI. shown, factor: what people count it in. how: what gives it, a standing tire pressed
-    on ("print"), slopes of rolling ("card"), a rolling state ("rolling"), or its shear ("pins"). doubt: standard
+    on ("print"), slopes of rolling ("card"), a rolling state ("rolling"), or its shear ("pins"). deviation: standard
     deviation that is taken where none is given, of the value if relative. Grounds: repeated readings of one tire.
     """
 
@@ -56,7 +56,7 @@ class Reading:
     shown: str
     factor: float
     how: str
-    doubt: float
+    deviation: float
     relative: bool = True
 
 
@@ -205,7 +205,7 @@ class Measured:
         """Standard deviation of a reading of a value, SI, and whether it was given. defaults: for rows without it."""
         error = (self.errors or {}).get(name, defaults.get(name))
         row = READINGS[name]
-        size, relative = (row.doubt, row.relative) if error is None else _error(name, error)
+        size, relative = (row.deviation, row.relative) if error is None else _error(name, error)
         return size * abs(value) if relative else size, error is not None
 
     def loaded(self, folder: str | os.PathLike[str] = ".") -> Measured:

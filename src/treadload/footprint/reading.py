@@ -17,7 +17,7 @@ from treadload.footprint import image, pins, tekscan, text
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.frames import Frames
 from treadload.footprint.measures import filled, lone
-from treadload.footprint.sensor_caveats import dead_in_words, doubts_of, peak_doubt
+from treadload.footprint.sensor_caveats import caveats_of, dead_in_words, peak_caveat
 from treadload.footprint.spelling import pressure_factor
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
@@ -105,17 +105,17 @@ def read_footprint(
     most = _limit(saturation, frames.saturation, frames, math.inf)
     valid = ~np.isnan(pressure)
     pressure = _checked(path, np.where(valid, pressure, 0.0), least, most)
-    doubts = [*frames.warnings, *doubts_of(path, pressure, valid, most, travel)]
+    caveats = [*frames.warnings, *caveats_of(path, pressure, valid, most, travel)]
     holes, stuck = lone(pressure, valid)
-    doubts += dead_in_words(path, holes, stuck, dead, float(pressure[valid].sum()))
+    caveats += dead_in_words(path, holes, stuck, dead, float(pressure[valid].sum()))
     if dead == "fill":
         pressure = filled(pressure, holes, valid)
     else:
         valid = valid & ~holes
     footprint = _turned(path, frames, pressure, ~valid, sign, travel, seen_from, number)
     assert frames.law is not None
-    doubts += peak_doubt(footprint, frames.law[0]) if load is None else []
-    footprint = replace(footprint, threshold=least, saturation=most, warnings=tuple(doubts))
+    caveats += peak_caveat(footprint, frames.law[0]) if load is None else []
+    footprint = replace(footprint, threshold=least, saturation=most, warnings=tuple(caveats))
     return footprint if load is None else footprint.scaled_to(load)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from treadload.footprint.footprint import Footprint
 from treadload.footprint.spelling import KGF_CM2
 from treadload.kernels.arrays import Array, BoolArray
-from treadload.plausible import load_doubt
+from treadload.plausible import load_caveat
 from treadload.units import PSI
 
 # Peaks of footprints, Pa, beyond which the unit is doubted, and what they usually are; units that were meant.
@@ -22,7 +22,7 @@ _EQUAL, _EQUAL_SHARE = 5, 0.02
 _NAMED = 6
 
 
-def doubts_of(path: Path, pressure: Array, valid: BoolArray, most: float, travel: str) -> list[str]:
+def caveats_of(path: Path, pressure: Array, valid: BoolArray, most: float, travel: str) -> list[str]:
     """Sentences about saturation, the sensor's edge, and lines that read nothing."""
     sentences = []
     loaded = pressure > 0
@@ -83,11 +83,11 @@ def _places(mask: BoolArray) -> str:
     return ", ".join(places) + (f" and {more} more" if more > 0 else "")
 
 
-def peak_doubt(footprint: Footprint, unit: float) -> list[str]:
+def peak_caveat(footprint: Footprint, unit: float) -> list[str]:
     """A sentence about a peak, or else a load, that no tire has. unit: of the file, Pa."""
     peak = footprint.peak_pressure
     if _PEAKS[0] <= peak <= _PEAKS[1]:
-        return list(load_doubt(footprint.normal_load, footprint.width, "the footprint"))
+        return list(load_caveat(footprint.normal_load, footprint.width, "the footprint"))
     meant = [name for name, worth in _UNITS.items() if _USUAL[0] <= peak / unit * worth <= _USUAL[1]]
     return [
         f"the footprint peaks at {peak / 1e3:.3g} kPa; footprints of tires usually do at {_USUAL[0] / 1e3:g} to "

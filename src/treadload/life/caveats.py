@@ -12,7 +12,7 @@ from treadload.damage.traffic import Traffic
 from treadload.life.seasons import Warm, beyond_data
 from treadload.life.wheels import Wheels
 from treadload.pavement import Pavement
-from treadload.plausible import doubt, load_doubt
+from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
 
 
@@ -35,9 +35,9 @@ def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
     )
 
 
-def bond_doubts(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Sequence[Wheels]) -> tuple[str, ...]:
+def bond_caveats(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Sequence[Wheels]) -> tuple[str, ...]:
     """Sentences on bonds in seasons and under classes for which their strength was not tested."""
-    doubts = {
+    caveats = {
         f"{criterion.name}: {text}": None
         for season in warm
         for k, criterion in enumerate(criteria)
@@ -45,31 +45,31 @@ def bond_doubts(criteria: Sequence[Criterion], warm: Sequence[Warm], wheels: Seq
         for wheel in wheels
         for text in season.criteria[k]
         .passing(wheel.speed, season.criteria[k].depth(season.road), wheel.length)
-        .quantity.doubt.split("; ")
-        if text not in criterion.quantity.doubt
+        .quantity.caveat.split("; ")
+        if text not in criterion.quantity.caveat
     }
-    return tuple(doubts)
+    return tuple(caveats)
 
 
-def surface_doubts(road: Pavement, criteria: Sequence[Criterion], tire: Tire, traffic: Traffic) -> tuple[str, ...]:
+def surface_caveats(road: Pavement, criteria: Sequence[Criterion], tire: Tire, traffic: Traffic) -> tuple[str, ...]:
     """A sentence where a criterion reads the surface below tires without free ribs."""
     if all(min(criterion.depths(road)) >= SHALLOW for criterion in criteria):
         return ()
     return tuple(sides_in_words([(row.tire or tire).rib_sides for row in traffic.classes]))
 
 
-def traffic_doubts(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:
+def traffic_caveats(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:
     """Sentences on the classes of axles, how many there are, how that grows, and the temperatures."""
-    caveats = doubt("number of passes per year", traffic.passes_per_year) if traffic.passes_per_year else ()
-    caveats += doubt("annual growth", traffic.growth)
+    caveats = caveat("number of passes per year", traffic.passes_per_year) if traffic.passes_per_year else ()
+    caveats += caveat("annual growth", traffic.growth)
     for row in traffic.classes:
         _, width = (row.tire or tire).extent
-        caveats += load_doubt(row.wheel_load, width, row.name)
-        caveats += doubt("inflation pressure", row.inflation_pressure, row.name)
-        caveats += doubt("friction", law_of(row.friction).largest, row.name)
+        caveats += load_caveat(row.wheel_load, width, row.name)
+        caveats += caveat("inflation pressure", row.inflation_pressure, row.name)
+        caveats += caveat("friction", law_of(row.friction).largest, row.name)
         if row.speed is not None:
-            caveats += doubt("speed", row.speed, row.name)
+            caveats += caveat("speed", row.speed, row.name)
     for season in climate.seasons:
         for temperature in season.temperatures:
-            caveats += doubt("temperature", temperature, season.name)
+            caveats += caveat("temperature", temperature, season.name)
     return caveats

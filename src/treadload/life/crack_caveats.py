@@ -21,9 +21,9 @@ _ALIKE = 1.25
 _STRETCH = 1.2
 
 
-def cautions(doubts: Sequence[str], jammed: int, states: int, way: Way, road: Pavement) -> list[str]:
-    """Of the laws, of faces that jam and of the path. doubts: of the laws. states: of all passages and lengths."""
-    caveats = [f"crack growth: {text}" for text in doubts]
+def cautions(of_laws: Sequence[str], jammed: int, states: int, way: Way, road: Pavement) -> list[str]:
+    """Of the laws, of faces that jam and of the path. of_laws: the laws'. states: of all passages and lengths."""
+    caveats = [f"crack growth: {text}" for text in of_laws]
     if jammed:
         caveats.append(
             f"crack growth: the faces jam in {jammed} of {states} states, where they are taken without friction, "

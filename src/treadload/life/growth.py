@@ -99,7 +99,7 @@ def _grow(
         "jammed": jammed,
         "seconds": time.perf_counter() - start,
     }
-    caveats = cautions(_doubts(crack), jammed, states, way, warm.distinct[0].road)
+    caveats = cautions(_caveats(crack), jammed, states, way, warm.distinct[0].road)
     ends = crack.ends.top, crack.ends.bottom
     caveats += at_the_end(list(stress.crossings.values()), crack.laws, warm, growth, ends, upwards=crack.upwards)
     caveats += [_DAILY] if advance.daily is not None else []
@@ -222,7 +222,7 @@ def _dataset(crack: Crack, stress: CrackStress, way: Way, largest: Array, advanc
         starts=f"{crack.criterion.name}, a crack of {crack.length * 1e3:g} mm where its damage is 1",
         laws=json.dumps([str(law) for law in crack.laws], ensure_ascii=False),
         sources=json.dumps(list(dict.fromkeys(law.source for law in crack.laws)), ensure_ascii=False),
-        doubts=json.dumps(_doubts(crack), ensure_ascii=False),
+        caveats=json.dumps(_caveats(crack), ensure_ascii=False),
         initiation_scatter=scatter,
         growth_scatter=growth_scatter,
         trace=crack.trace,
@@ -230,5 +230,5 @@ def _dataset(crack: Crack, stress: CrackStress, way: Way, largest: Array, advanc
     )  # fmt: skip
 
 
-def _doubts(crack: Crack) -> list[str]:
-    return list(dict.fromkeys(law.doubt for law in crack.laws if law.doubt))
+def _caveats(crack: Crack) -> list[str]:
+    return list(dict.fromkeys(law.caveat for law in crack.laws if law.caveat))

@@ -14,7 +14,7 @@ from treadload.damage.cycles import harm_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
 from treadload.kernels.arrays import Array
-from treadload.life.caveats import bond_doubts
+from treadload.life.caveats import bond_caveats
 from treadload.life.climate import nodes, over_the_climate, warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
@@ -23,7 +23,7 @@ from treadload.life.seasons import laws_of, layer_temperatures, roads_of
 from treadload.life.threads import how_many, pool_of
 from treadload.life.wheels import Wheels, across, check_speed, states_of, wheels_of
 from treadload.response.basin import basin_reach, too_wide
-from treadload.response.input_caveats import overlapping, road_doubts
+from treadload.response.input_caveats import overlapping, road_caveats
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,8 +161,8 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
         tuple(wheels),
         laws,
         tuple(f"{wheel.name}: {text}" for wheel in wheels for text in overlapping(wheel.loads))
-        + road_doubts(distinct[0].road)
-        + bond_doubts(criteria, distinct, wheels)
+        + road_caveats(distinct[0].road)
+        + bond_caveats(criteria, distinct, wheels)
         + tuple(dict.fromkeys(text for road in distinct if (text := too_wide(road.road))))
         + _on_the_border(readings, everything[:, :, :, turns + BORDER], reach),
     )

@@ -14,7 +14,7 @@ import xarray as xr
 from treadload import variables
 from treadload.damage.climate import Climate, Season
 from treadload.damage.indices import depth_factor
-from treadload.damage.rutting import COLDEST, DOUBT, SOIL, UNBOUND, WARMEST, Rutting
+from treadload.damage.rutting import CAVEAT, COLDEST, SOIL, UNBOUND, WARMEST, Rutting
 from treadload.damage.traffic import Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.climate import curves, first_nodes, warmth_of
@@ -95,7 +95,7 @@ def rut_fields(design: Design, rutting: Rutting, wheels: Sequence[Wheels]) -> tu
         attrs |= {"rut_limit": limit, "rut_years": _until(lambda n: float(rut(n)[:, worst].sum()) - limit)}
     places = {"rut_layer": np.arange(len(names)), "year": years}
     data = variables.dataset({"rut_depth": (("rut_layer", "year"), depth)}, places, **attrs)
-    caveats = [f"rut: {DOUBT}"]
+    caveats = [f"rut: {CAVEAT}"]
     cold = [season.name for season in climate.seasons if _coldest(road, season, depths, owner) < COLDEST]
     if cold:
         caveats.append(

@@ -18,7 +18,7 @@ from treadload.damage.life import Life
 from treadload.damage.miner import miner
 from treadload.damage.thermal import DailyCycles
 from treadload.damage.words import CAUSES, DIRECTIONS
-from treadload.life.caveats import beyond_tables, surface_doubts, traffic_doubts
+from treadload.life.caveats import beyond_tables, surface_caveats, traffic_caveats
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.first_crack import first_cracks
@@ -82,9 +82,9 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
         "seconds": time.perf_counter() - start,
     }
     caveats = (
-        *_lifts(road, criteria), *traffic_doubts(tire, traffic, climate), *climate.warnings,
+        *_lifts(road, criteria), *traffic_caveats(tire, traffic, climate), *climate.warnings,
         *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
-        *surface_doubts(road, criteria, tire, traffic),
+        *surface_caveats(road, criteria, tire, traffic),
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
 

@@ -27,7 +27,7 @@ _SERIES, _BEYOND = 1e-2, 10.0
 # Frequency at which a viscoelastic mix is read for its fatigue, Hz.
 _READ = 10.0
 # A model this far from its table is worth a sentence.
-_DOUBTFUL = 0.1
+_CAVEATFUL = 0.1
 _WHY = (
     "daily thermal stress: the mean day of each month in its steady state, restrained in the plane, one cycle a day; "
     "the law reads the strain that a wheel would make for the same stress at the modulus of the worst hour; nothing "
@@ -67,7 +67,7 @@ def daily_cycles(
             caveats.append(f"{criterion.name}: daily thermal stress is left out: {unknown}")
             continue
         relaxing, expansion, misfit = thermal.of(material)
-        if misfit > _DOUBTFUL:
+        if misfit > _CAVEATFUL:
             caveats.append(
                 f"{criterion.name}: the model by which its mix relaxes misses the table by "
                 f"{100 * misfit:.0f} % (rms); give relaxation, a viscoelastic material with a shift"

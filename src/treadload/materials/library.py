@@ -39,7 +39,7 @@ class _Bituminous:
     scatter: Number | None = None
     calibration: Number | None = None
     ratios: str | None = None
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -66,7 +66,7 @@ class _Hydraulic:
     calibration: Number
     joints: Number | None = None
     thickness_scatter: Length | None = None
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -90,15 +90,15 @@ class _ByStress:
     earth_pressure: Number
     unit_weight: UnitWeight
     poisson: Number | None = None
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class _File:
-    """A file of road materials of one source, and the doubts about it."""
+    """A file of road materials of one source, and the caveats about it."""
 
     source: str
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
     bituminous: _AllBituminous | None = None
     hydraulic: dict[str, _Hydraulic] | None = None
     unbound: _AllUnbound | None = None
@@ -108,7 +108,7 @@ class _File:
 def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
     """Road materials of a TOML file; see the files of `catalogue/data/mixes`.
 
-    Keys: source; doubts, sentences, also of one mix; bituminous with temperatures (°C), frequency (Hz) of the moduli
+    Keys: source; caveats, sentences, also of one mix; bituminous with temperatures (°C), frequency (Hz) of the moduli
     (Pa), poisson, slope, mixes and ratios; hydraulic; unbound; stress_dependent. Raises InputError that names file
     and key.
     """
@@ -128,7 +128,7 @@ def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
         raise InputError(f"{name}: {error}") from error
     source = sentence(tables.source)
     return [
-        replace(item, source=source, doubts=tuple(map(sentence, (*item.doubts, *tables.doubts)))) for item in items
+        replace(item, source=source, caveats=tuple(map(sentence, (*item.caveats, *tables.caveats)))) for item in items
     ]
 
 
@@ -144,7 +144,7 @@ def _bituminous(common: _AllBituminous | None) -> list[Mix]:
         fatigue = mix.epsilon_6, common.slope, mix.scatter, mix.calibration
         moduli = tuple(rows), tuple(rows.values())
         at = common.poisson, common.frequency
-        mixes.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, doubts=mix.doubts))
+        mixes.append(Mix(name, common.temperatures, *moduli, *at, *fatigue, caveats=mix.caveats))
     return mixes
 
 

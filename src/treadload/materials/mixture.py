@@ -26,7 +26,7 @@ class Mix:
     moduli: Pa, (nf, nθ), rows of one frequency. poisson: Poisson's ratio. frequency: that `at` reads, Hz.
     epsilon_6: strain that a million cycles allow at 10 °C and 25 Hz, plain strain; None where it is not known.
     slope: b of the fatigue line. scatter: SN, of the logarithm of the fatigue life. calibration: k_c.
-    source: where the numbers are from. doubts: what is not certain about them, a sentence each.
+    source: where the numbers are from. caveats: what is not certain about them, a sentence each.
     The modulus is linear in temperature between those tabulated, and a power of frequency between those tabulated.
     The first rule reproduces the printed E(15 °C, 10 Hz) of every French mix; the second misses the printed ratios
     at 3 Hz, when these are left out, by 2 % on average, one linear in log f by 4 %.
@@ -44,7 +44,7 @@ class Mix:
     scatter: float | None = None
     calibration: float | None = None
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         place = f"mix {self.name!r}"
@@ -136,7 +136,7 @@ class HydraulicMix(Elastic):
     modulus: Pa. poisson: Poisson's ratio. name: in the catalogue. sigma_6: stress of a million cycles, Pa.
     slope: b of the fatigue line. scatter: SN. calibration: k_c. joints: k_d, for discontinuities; None where it
     depends on the structure. thickness_scatter: Sh, m; None where it does. source: where the numbers are from.
-    doubts: what is not certain about them, a sentence each. Raises InputError.
+    caveats: what is not certain about them, a sentence each. Raises InputError.
     """
 
     name: str
@@ -147,7 +147,7 @@ class HydraulicMix(Elastic):
     joints: float | None = None
     thickness_scatter: float | None = None
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -169,7 +169,7 @@ class Unbound(Elastic):
 
     modulus: Pa. poisson: Poisson's ratio. name: in the catalogue. slope: b. constant: A under medium and heavy
     traffic, plain strain. constant_light: A under light traffic. constant_inverted: A of the granular layer of an
-    inverted structure; None for a platform. source: where the numbers are from. doubts: what is not certain about
+    inverted structure; None for a platform. source: where the numbers are from. caveats: what is not certain about
     them, a sentence each. Raises InputError.
     """
 
@@ -179,7 +179,7 @@ class Unbound(Elastic):
     constant_light: float
     constant_inverted: float | None = None
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         super().__post_init__()

@@ -26,14 +26,14 @@ class PublishedMaterial:
 
     name: in the catalogue. material: Viscoelastic, or TemperatureDependent where the paper says how times shift.
     temperature: at which it holds, °C; None where it depends on temperature, or is not said. source: the paper.
-    doubts: what is not certain about it, a sentence each.
+    caveats: what is not certain about it, a sentence each.
     """
 
     name: str
     material: Viscoelastic | TemperatureDependent
     temperature: float | None = None
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __str__(self) -> str:
         at = "" if self.temperature is None else f" at {self.temperature:g} °C"
@@ -52,7 +52,7 @@ def _of_a_case(name: str) -> Viscoelastic | TemperatureDependent:
 def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
     """Materials of a TOML file, a table each, as in a case: kind, numbers, shift; see `catalogue/data/viscoelastic`.
 
-    temperature: at which the numbers hold. source: the paper. doubts: sentences.
+    temperature: at which the numbers hold. source: the paper. caveats: sentences.
     Raises InputError that names file and key.
     """
     # pydantic is loaded when a file is read, not before.
@@ -61,12 +61,12 @@ def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
 
     def publish(material: Material, table: TargetTable, folder: Path) -> PublishedMaterial:
         law = cast("Viscoelastic | TemperatureDependent", shifted(material, table, folder))
-        doubts = tuple(map(sentence, getattr(table, "doubts", None) or ()))
+        caveats = tuple(map(sentence, getattr(table, "caveats", None) or ()))
         return PublishedMaterial(
-            "", law, getattr(table, "temperature", None), sentence(getattr(table, "source", None) or ""), doubts
+            "", law, getattr(table, "temperature", None), sentence(getattr(table, "source", None) or ""), caveats
         )
 
-    more = {"temperature": Celsius, "source": str, "doubts": tuple[str, ...]}
+    more = {"temperature": Celsius, "source": str, "caveats": tuple[str, ...]}
     kinds = Choice(MATERIALS, more=lambda target: {**shift_of(target), **more}, finish=publish)
     file = Path(path)
     by_name = read(dict[str, Annotated[Any, kinds]], read_tables(file), str(file))

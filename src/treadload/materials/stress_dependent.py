@@ -129,13 +129,13 @@ class AtStress(Elastic):
 class UnboundByStress(StressDependent):
     """A stress-dependent material of the catalogue.
 
-    name: in the catalogue. source: where the numbers are from. doubts: what is not certain about them, a
+    name: in the catalogue. source: where the numbers are from. caveats: what is not certain about them, a
     sentence each.
     """
 
     name: str
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __str__(self) -> str:
         return f"{self.name}, {super().__str__()}"

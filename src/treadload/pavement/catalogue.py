@@ -35,14 +35,14 @@ class Structure:
     """A catalogued road: layers by the names of their mixes.
 
     name: in the catalogue. title: in words. courses: from the surface down. source: where it is from.
-    doubts: what is not certain about it, a sentence each.
+    caveats: what is not certain about it, a sentence each.
     """
 
     name: str
     title: str
     courses: tuple[Course, ...]
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def layers(self, *, frequency: float | None = None) -> list[Layer]:
         """The layers of the road, see `Pavement.from_catalogue`; bituminous ones wait for their temperature.
@@ -97,7 +97,7 @@ def read_structures(path: str | os.PathLike[str]) -> list[Structure]:
             structure.title,
             structure.layers,
             sentence(structure.source),
-            tuple(map(sentence, structure.doubts)),
+            tuple(map(sentence, structure.caveats)),
         )
         for structure in tables.structures
     ]
@@ -111,7 +111,7 @@ class _Row:
     title: str
     source: str
     layers: tuple[Course, ...]
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)

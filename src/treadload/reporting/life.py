@@ -25,7 +25,7 @@ WORKS = ("axles", "polishing: work of sliding, J/m²", "ravelling: work of teari
 class LifeReport:
     """What a report says of one life.
 
-    label: of the case. facts: (term, value). laws: name of a criterion, law, source, doubt, what the end of life is.
+    label: of the case. facts: (term, value). laws: name of a criterion, law, source, caveat, what the end of life is.
     groups: sentences on first cracks and on groups of axles. solved: what was solved for it. first: the criteria,
     where it would crack first, by whom; None for files without it. works: rows of `WORKS`.
     """
@@ -42,7 +42,7 @@ class LifeReport:
 
 def life_report(label: str, data: xr.Dataset) -> LifeReport:
     """The report of a life. data: the group /life."""
-    laws, sources, doubts = (json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "doubts"))
+    laws, sources, caveats = (json.loads(data.attrs.get(name, "[]")) for name in ("laws", "sources", "caveats"))
     names = [str(name) for name in data["criterion"].to_numpy()]
     ends = json.loads(data.attrs.get("ends", "[]")) or [""] * len(names)
     shown = from_json(data.attrs.get("rows"))
@@ -50,7 +50,7 @@ def life_report(label: str, data: xr.Dataset) -> LifeReport:
         label,
         _facts(data, shown),
         tuple(pictures_of("Life", [data], {})),
-        tuple(zip(names, laws, sources, doubts, ends, strict=True)),
+        tuple(zip(names, laws, sources, caveats, ends, strict=True)),
         (*_first_cracks(shown), *json.loads(data.attrs.get("groups", "[]"))),
         _solved(data),
         first_of_life(data, shown),

@@ -11,14 +11,14 @@ from treadload.kernels.arrays import Array
 from treadload.materials import ElastoPlastic
 from treadload.materials.kinds import limit_of, upright
 from treadload.pavement import Pavement
-from treadload.plausible import doubt
+from treadload.plausible import caveat
 from treadload.response.loads import GridLoad, PlacedLoad, UniformDisc
 
 # Layers less stiff than this are soil or unbound, Pa.
 _SOFT = 1e9
 
 
-def road_doubts(road: Pavement) -> tuple[str, ...]:
+def road_caveats(road: Pavement) -> tuple[str, ...]:
     """Sentences on the layers of a road at its temperature."""
     warnings: tuple[str, ...] = ()
     for number, layer in enumerate(road.at_nominal_stress.layers):
@@ -29,13 +29,13 @@ def road_doubts(road: Pavement) -> tuple[str, ...]:
             warnings += (
                 f"{place} can yield, and this is the response of its elastic part; roll_passes follows the rest",
             )
-        warnings += doubt("modulus of the layer", modulus, place) + doubt("Poisson's ratio", poisson, place)
+        warnings += caveat("modulus of the layer", modulus, place) + caveat("Poisson's ratio", poisson, place)
         if layer.thickness is not None:
             kind = _position(number, len(road.layers), modulus)
-            warnings += doubt(kind, layer.thickness, "" if number == 0 else place)
+            warnings += caveat(kind, layer.thickness, "" if number == 0 else place)
         bond = layer.bond.sticking
         if len(bond.limits) == 1 and 0 < bond.stiffness < math.inf:
-            warnings += doubt("stiffness of the bond", bond.stiffness, f"the bond below {place}")
+            warnings += caveat("stiffness of the bond", bond.stiffness, f"the bond below {place}")
     return warnings
 
 
@@ -48,9 +48,9 @@ def _position(number: int, count: int, modulus: float) -> str:
     return "thickness of the unbound layer" if modulus < _SOFT else "thickness of the layer"
 
 
-def question_doubts(depths: Array, speed: float | None) -> tuple[str, ...]:
+def question_caveats(depths: Array, speed: float | None) -> tuple[str, ...]:
     """Sentences on the depths, m, and the speed, m/s."""
-    return doubt("depth", float(depths.max())) + (() if speed is None else doubt("speed", speed))
+    return caveat("depth", float(depths.max())) + (() if speed is None else caveat("speed", speed))
 
 
 def overlapping(loads: Sequence[PlacedLoad]) -> tuple[str, ...]:

@@ -19,7 +19,7 @@ from treadload.kernels.layers.depths import snapped
 from treadload.materials.kinds import upright
 from treadload.pavement import Pavement
 from treadload.response.fields import response_dataset
-from treadload.response.input_caveats import overlapping, question_doubts, road_doubts
+from treadload.response.input_caveats import overlapping, question_caveats, road_caveats
 from treadload.response.layered import View
 from treadload.response.loads import GridLoad, Load, UniformRectangle, gather
 from treadload.response.material import check_length
@@ -142,7 +142,7 @@ def solve_response(
     gridded = [load for load in superposed if isinstance(load, GridLoad) and load.interpolation == "constant"]
     local = at_depths if read is None else at_depths[read.local]
     warnings = _warnings(gridded, local) + solved.warnings
-    warnings += question_doubts(at_depths, speed) + road_doubts(road) + overlapping(superposed)
+    warnings += question_caveats(at_depths, speed) + road_caveats(road) + overlapping(superposed)
     warnings += _drift(displacement, at_depths, cells)
     response = Response(dataset, stats, warnings, superposed, given_road, speed, side)
     items = [loads] if isinstance(loads, Contact) else loads if isinstance(loads, Sequence) else []

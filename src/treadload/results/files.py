@@ -16,6 +16,7 @@ from treadload._version import __version__
 from treadload.errors import InputError
 from treadload.files import NETCDF, check_suffix, read_tree, write_whole
 from treadload.results.opened import Results
+from treadload.results.questions import renamed
 from treadload.results.schema import check_tree, short
 from treadload.results.tree import CF, FORMAT, as_tree
 
@@ -92,5 +93,7 @@ def open_results(path: str | os.PathLike[str]) -> Results:
             f"{path} was written by treadload {loaded.attrs['treadload_version']} in the format {int(written)} of "
             f"results; this is treadload {__version__}, which reads formats up to {FORMAT}: update treadload"
         )
+    for part in loaded.subtree:
+        part.attrs = renamed(part.attrs)
     check_tree(loaded, str(path))
     return Results(loaded, str(path))

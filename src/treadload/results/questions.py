@@ -34,6 +34,8 @@ _OURS = "treadload"
 # At which functions of temperature are tabulated, °C.
 _DEGREES = range(-30, 71)
 _GROUPS = "treadload."
+FORMER_NAMES: Mapping[str, str] = {"doubts": "caveats", "doubt": "caveat"}
+"""Names of fields and attributes in earlier files, and what they are called now."""
 
 
 @dataclass(frozen=True)
@@ -161,6 +163,7 @@ class Reader:
                 return Fields(dataset.assign_attrs(missing))
             values = {str(name): self.value(item) for name, item in question["with"].items()}
             attrs = self.value(question["attrs"])
+            attrs = renamed(attrs) if isinstance(attrs, dict) else attrs
         except (KeyError, TypeError, AttributeError) as error:
             raise InputError(
                 f"{self.where}: the inputs of the part {name!r} cannot be read: {reason_of(error)}"
@@ -209,14 +212,20 @@ class Reader:
         )
 
     def _object(self, kind: type[Any], values: dict[str, Any]) -> Any:
+        fields = {entry.name for entry in dataclasses.fields(kind)} if dataclasses.is_dataclass(kind) else set()
         try:
-            return kind(**values)
+            return kind(**{name if name in fields else FORMER_NAMES.get(name, name): values[name] for name in values})
         except InputError as error:
             raise InputError(f"{self.where}: {error}") from error
         except (TypeError, ValueError, AttributeError, ArithmeticError, LookupError) as error:
             raise InputError(
                 f"{self.where}: no {kind.__name__} can be made of what it holds: {reason_of(error)}"
             ) from error
+
+
+def renamed(attrs: Mapping[Any, Any]) -> dict[Any, Any]:
+    """Attributes of a file by their present names."""
+    return {FORMER_NAMES.get(name, name): value for name, value in attrs.items()}
 
 
 def _number(reader: Reader, text: Any, _: Any) -> float:

@@ -14,7 +14,7 @@ from treadload.case import Case
 from treadload.composing import BaseResult
 from treadload.describing import first_line
 from treadload.pavement import Pavement
-from treadload.response.input_caveats import question_doubts, road_doubts
+from treadload.response.input_caveats import question_caveats, road_caveats
 from treadload.results import Study, road_in_rows, to_tree
 from treadload.results.opened import ALIASES
 from treadload.steps.outline import Outline
@@ -122,8 +122,8 @@ def plan(case: Case) -> str:
     if case.source.states_road:
         if outline.mapped:
             speed = case.speed if road.is_viscoelastic else None
-            outline.warnings += question_doubts(np.array(case.response.depths), speed)
-            outline.warnings += road_doubts(road)
+            outline.warnings += question_caveats(np.array(case.response.depths), speed)
+            outline.warnings += road_caveats(road)
         lines += ["", road_in_rows(road, case)]
     return "\n".join([*lines, *(f"warning: {text}" for text in outline.warnings)])
 

@@ -13,7 +13,7 @@ from treadload.case.step import Results, Source, at_key, numbers_of
 from treadload.damage import Life
 from treadload.damage.climate import Climate, Season
 from treadload.life.ageing import longer_by_ageing
-from treadload.life.caveats import traffic_doubts
+from treadload.life.caveats import traffic_caveats
 from treadload.life.design import DEFAULT_TOLERANCE
 from treadload.life.reliability import roads_asked
 from treadload.life.seasons import warmed
@@ -142,7 +142,7 @@ class LifeStep(Source, name="life"):
             f"criterion {criterion.name}: {criterion.law_at(15.0)} at {criterion.depth(road) * 1e3:g} mm"
             for criterion in criteria
         ]
-        outline.warnings += traffic_doubts(tire, traffic, climate)
+        outline.warnings += traffic_caveats(tire, traffic, climate)
 
     def road_of(self, case: Description, results: Results) -> tuple[Pavement | None, Season | None]:
         """The road in the season that does most damage."""

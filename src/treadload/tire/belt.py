@@ -54,7 +54,7 @@ class Belt:
     line of the belt, m; shear acts at it. crown_radius: of the tread arc across that inflation has to flatten, m;
     left out, that of the tire's surface. belt_radius: of the belt's own arc across, m, by which its rows roll on
     different radii; left out, none. lateral: sideways motion of the belt as a whole; left out, none.
-    name, source: free text. doubts: what is not certain about it, a sentence each.
+    name, source: free text. caveats: what is not certain about it, a sentence each.
 
     Defaults: those of a 315/80R22.5, see `Belt.from_library` for where each comes from.
     Raises InputError when a number is out of bounds, for an arm longer than the tread is thick, and for a belt with
@@ -73,11 +73,11 @@ class Belt:
     lateral: LateralBelt | None = None
     name: str = ""
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "bending", tuple(float(value) for value in self.bending))
-        object.__setattr__(self, "doubts", tuple(self.doubts))
+        object.__setattr__(self, "caveats", tuple(self.caveats))
         if not isinstance(self.tread, Elastic | Prony):
             raise InputError(f"belt: the tread must be an Elastic or a Prony, got {self.tread!r}")
         if not _THINNEST <= self.tread_thickness <= _THICKEST:
@@ -207,7 +207,7 @@ class InflatedBelt:
         return np.asarray(np.square(y) / (2 * radius * self.rolling_radius))
 
 
-def belt_doubt(belt: Belt, inflation_pressure: float, diameter: float | None) -> str | None:
+def belt_caveat(belt: Belt, inflation_pressure: float, diameter: float | None) -> str | None:
     """A sentence where a belt has numbers of the truck tire that are the defaults, on a tire of another kind.
 
     inflation_pressure: Pa. diameter: outer, m; None where it is not known.

@@ -20,7 +20,7 @@ from treadload.tire.tread import TreadProfile
 class TireMesh:
     """A mesh of a tire in a file; `Tire.from_scan` takes it like a path.
 
-    name: in the catalogue. path: of the file. title: in words. source: where it is from. doubts: what is not certain
+    name: in the catalogue. path: of the file. title: in words. source: where it is from. caveats: what is not certain
     about it, a sentence each. ribs: that its circumferential grooves leave; 0 for none.
     """
 
@@ -28,7 +28,7 @@ class TireMesh:
     path: Path
     title: str = ""
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
     ribs: int = field(default=0, repr=False)
 
     def __fspath__(self) -> str:
@@ -47,7 +47,7 @@ CataloguedTire = TreadProfile | TireMesh
 def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
     """The tire of a TOML file, in a list; see `catalogue/data/tires`. Raises InputError that names file and key.
 
-    A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source, doubts and ribs; a
+    A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source, caveats and ribs; a
     parametric tread those of TreadProfile.
     """
     # pydantic is loaded when a file is read, not before.
@@ -68,7 +68,7 @@ def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
             mesh_table.mesh,
             mesh_table.title,
             sentence(mesh_table.source),
-            tuple(map(sentence, mesh_table.doubts)),
+            tuple(map(sentence, mesh_table.caveats)),
             mesh_table.ribs,
         )
     ]
@@ -82,7 +82,7 @@ class _Mesh:
     mesh: Path
     title: str
     source: str
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
     ribs: int = 0
 
 

@@ -49,7 +49,7 @@ def modulus_from_inflation(inflation_pressure: float) -> float:
     return 2.7 * check_inflation_pressure(inflation_pressure) + 0.7e6
 
 
-def modulus_doubt(inflation_pressure: float, diameter: float | None) -> str | None:
+def modulus_caveat(inflation_pressure: float, diameter: float | None) -> str | None:
     """A sentence when a tire is not of the kind that `modulus_from_inflation` was fitted to; else None.
 
     inflation_pressure: Pa. diameter: outer, m; None where it is not known.

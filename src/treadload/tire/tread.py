@@ -32,7 +32,7 @@ class TreadProfile:
     the tire, m. width: of the tread, m; there is no material beyond. shoulder_radius: rounding where the
     tread turns into a vertical sidewall, m, tangent to both; 0 for a square shoulder. grooves, lateral: cut
     into it; where two meet, the deeper one counts. name, source, notes: free text.
-    doubts: what is not certain about it, a sentence each. vehicle: kind that the tire is for, e.g. "truck or bus";
+    caveats: what is not certain about it, a sentence each. vehicle: kind that the tire is for, e.g. "truck or bus";
     a remedy by another tire stays within one kind.
     Raises InputError when a number is out of bounds or a groove leaves the tread.
     """
@@ -46,13 +46,13 @@ class TreadProfile:
     name: str = ""
     source: str = ""
     notes: str = ""
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
     vehicle: str = ""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grooves", tuple(self.grooves))
         object.__setattr__(self, "lateral", tuple(self.lateral))
-        object.__setattr__(self, "doubts", tuple(self.doubts))
+        object.__setattr__(self, "caveats", tuple(self.caveats))
         check_finite(self, "tread profile", ("rolling_radius", "crown_radius", "width"))
         for name, low, high in (("rolling_radius", 0.05, 3.0), ("width", 0.02, 2.0)):
             if not low <= getattr(self, name) <= high:

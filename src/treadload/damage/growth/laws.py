@@ -29,13 +29,13 @@ _FROM_MEMORY = "from memory, to verify"
 class GrowthLaw(ABC):
     """What a law of crack growth provides.
 
-    scatter: standard deviation of log₁₀ of the rate, about the line. source: of its numbers. doubt: what of them no
+    scatter: standard deviation of log₁₀ of the rate, about the line. source: of its numbers. caveat: what of them no
     source could be read for, in words; empty if nothing.
     """
 
     scatter: float
     source: str
-    doubt: str
+    caveat: str
 
     @abstractmethod
     def at(self, modulus: float) -> ParisLaw:
@@ -51,7 +51,7 @@ class ParisLaw(GrowthLaw):
     """Growth per passage da/dN = C (ΔK / 1 MPa √m)^n.
 
     rate: C, m per passage at a range of 1 MPa √m. exponent: n, >= 1. scatter: standard deviation of log₁₀ C.
-    source, doubt: in words. Raises InputError.
+    source, caveat: in words. Raises InputError.
     Source: Paris and Erdogan (1963), J. Basic Eng. 85, 528-534.
     """
 
@@ -59,7 +59,7 @@ class ParisLaw(GrowthLaw):
     exponent: Number
     scatter: Number = _SCATTER
     source: str = "Paris and Erdogan (1963), numbers of the user"
-    doubt: str = ""
+    caveat: str = ""
 
     def __post_init__(self) -> None:
         positive("rate of Paris' law", self.rate, "m at 1 MPa √m", "asphalt is near 1e-5 to 1e-3")
@@ -69,7 +69,7 @@ class ParisLaw(GrowthLaw):
     def from_millimetres(cls, coefficient: float, exponent: float, **more: float | str) -> ParisLaw:
         """From A and n as asphalt laboratories print them: da/dN in mm, ΔK in N/mm^1.5.
 
-        1 MPa √m = 31.62 N/mm^1.5, so that C = A 31.62^n mm. more: scatter, source, doubt.
+        1 MPa √m = 31.62 N/mm^1.5, so that C = A 31.62^n mm. more: scatter, source, caveat.
         """
         positive("A of Paris' law", coefficient, "mm by N/mm^1.5")
         return cls(1e-3 * coefficient * _TO_MM**exponent, exponent, **more)  # type: ignore[arg-type]
@@ -105,7 +105,7 @@ class FromStrength(GrowthLaw):
     strength: Modulus = 4e6
     scatter: Number = _SCATTER
     source: str = "Molenaar (1984), PAAPT 53"
-    doubt: str = f"4.389 and 2.52 are {_FROM_MEMORY}"
+    caveat: str = f"4.389 and 2.52 are {_FROM_MEMORY}"
 
     def __post_init__(self) -> None:
         positive("strength", self.strength, "Pa", "asphalt has 1e6 to 6e6")
@@ -119,7 +119,7 @@ class FromStrength(GrowthLaw):
             self.exponent,
             scatter=self.scatter,
             source=self.source,
-            doubt=self.doubt,
+            caveat=self.caveat,
         )
 
     def __str__(self) -> str:
@@ -155,4 +155,4 @@ def law_of_mix(material: Material | TemperatureDependent | StressDependent, laye
             f"layer {layer!r}, {material}, has no data of crack growth; give [growth] a law, such as "
             '{ law = "paris", rate = "0.1 mm", exponent = 4 }, its growth per passage at 1 MPa √m'
         )
-    return FromStrength(-1 / material.slope, strength, doubt=f"4.389 and 2.52 are {_FROM_MEMORY}; {_OF_THE_LINE}")
+    return FromStrength(-1 / material.slope, strength, caveat=f"4.389 and 2.52 are {_FROM_MEMORY}; {_OF_THE_LINE}")

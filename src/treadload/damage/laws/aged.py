@@ -80,7 +80,7 @@ class AgedLine(PowerLaw):
         return math.exp(self.exponent * (young + self.hardening / CORE_SLOPE * math.log(CORE_EPSILON_6)))
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """What the cores do not say."""
         return (
             "its numbers are fitted to old cores of dikes, no road, and linear in the hardening between; its slope "
@@ -191,7 +191,7 @@ class TwoSlopeLine:
     end_of_life: ClassVar[str] = FatigueLine.end_of_life
     calibrated: ClassVar[str] = USERS
     conditions: ClassVar[LoadingConditions] = FatigueLine.conditions
-    doubt: ClassVar[str] = ""
+    caveat: ClassVar[str] = ""
     verified: ClassVar[bool] = True
     includes_wander: ClassVar[bool] = False
 

@@ -160,7 +160,7 @@ class AsphaltInstitute(_Regression):
             check_volumes(self.air_voids, self.binder_volume)
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """The constant."""
         return "the constant 0.0796 is from memory and was not found in a document; public programs agree on it"
 
@@ -195,7 +195,7 @@ class AsphaltInstituteSubgrade(PowerLaw):
     includes_weather: ClassVar[bool] = True
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """All of it."""
         return "its numbers are from memory and were not found in a document; public programs agree on them"
 
@@ -227,7 +227,7 @@ class ShellFatigue(_Regression):
     calibrated: ClassVar[str] = "by beam tests of Shell, from memory"
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """All of it."""
         return "its numbers are from memory and were not found in a source"
 

@@ -47,10 +47,10 @@ _RECALLED = "the least force of Leutner's test is from memory, no source was rea
 class BondStrength(ABC):
     """What a bond bears, whichever the law: subclasses are frozen dataclasses.
 
-    doubt: which of its numbers have no source that was read; a field, or nothing.
+    caveat: which of its numbers have no source that was read; a field, or nothing.
     """
 
-    doubt: str = ""
+    caveat: str = ""
 
     @abstractmethod
     def utilisation(self, shear: float | Array, normal: float | Array) -> Array:
@@ -76,7 +76,7 @@ class InterfaceStrength(BondStrength):
 
     cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
     tensile_strength: Pa, or a function of °C likewise, at most c / tan φ, where the line ends; left out, the line's
-    own end, and no limit where φ = 0. doubt: which numbers have no source that was read.
+    own end, and no limit where φ = 0. caveat: which numbers have no source that was read.
     The law says when an intact bond would fail; friction on a debonded face is another matter.
     Raises InputError.
     """
@@ -84,7 +84,7 @@ class InterfaceStrength(BondStrength):
     cohesion: Strength
     friction_angle: float = 0.0
     tensile_strength: Strength | None = None
-    doubt: str = ""
+    caveat: str = ""
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.friction_angle) and 0 <= self.friction_angle < math.pi / 2):
@@ -126,10 +126,10 @@ class InterfaceStrength(BondStrength):
 
     @classmethod
     def leutner_minimum(cls, place: str) -> InterfaceStrength:
-        """Strength of a core that just passes Leutner's test. place: of `LEUTNER_MINIMUM`, whose doubt it carries."""
+        """Strength of a core that just passes Leutner's test. place: of `LEUTNER_MINIMUM`, with its caveat."""
         if place not in LEUTNER_MINIMUM:
             raise InputError(f"place must be one of {', '.join(LEUTNER_MINIMUM)}, got {place!r}")
-        return replace(cls.from_leutner(LEUTNER_MINIMUM[place]), doubt=_RECALLED)
+        return replace(cls.from_leutner(LEUTNER_MINIMUM[place]), caveat=_RECALLED)
 
     @property
     def depends_on_temperature(self) -> bool:
@@ -223,9 +223,9 @@ class BondUtilisation(Quantity):
         return "" if self.strength is not None else "the strength of the bond"
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """That of the strength."""
-        return "" if self.strength is None else self.strength.doubt
+        return "" if self.strength is None else self.strength.caveat
 
     def at(self, temperature: float) -> Self:
         """The same with the strength at a temperature of the layer above, °C."""
@@ -256,7 +256,7 @@ class ShearFatigue(PowerLaw):
     """Fatigue of a bond: passes N = (u / u₁)^(1/b) that a utilisation u allows.
 
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
-    one pass bears; 1 ties the line to the strength itself. doubt: which numbers have no source that was read.
+    one pass bears; 1 ties the line to the strength itself. caveat: which numbers have no source that was read.
     reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
     It reads the largest utilisation, once as each axle passes, though the shear reverses under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied
@@ -268,7 +268,7 @@ class ShearFatigue(PowerLaw):
 
     slope: Number
     single_pass: Number = 1.0
-    doubt: str = ""
+    caveat: str = ""
     reads: Quantity = UTILISATION
 
     source: ClassVar[str] = "a power law of the bond's utilisation with the user's numbers"

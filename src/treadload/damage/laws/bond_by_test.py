@@ -44,7 +44,7 @@ class TimedStrength(BondStrength):
     with c elsewhere; left out, where Coulomb's line ends. slip: displacement at which a test fails, m.
     temperatures, rates: (least, most) of the tests, °C and m/s. Beyond them the law stays on the safe side and says
     so: where strength would rise, colder and faster, it is held; where it falls it goes on falling.
-    scatter: relative standard deviation of tests about the law. doubt: which numbers have no source that was read.
+    scatter: relative standard deviation of tests about the law. caveat: which numbers have no source that was read.
     Raises InputError.
     """
 
@@ -59,7 +59,7 @@ class TimedStrength(BondStrength):
     temperatures: tuple[float, float] = _ANY
     rates: tuple[float, float] = _ANY_RATE
     scatter: float = 0.0
-    doubt: str = ""
+    caveat: str = ""
 
     def __post_init__(self) -> None:
         positive("the cohesion of a bond", self.cohesion, "Pa", "0.85 MPa is 0.85e6")
@@ -89,7 +89,7 @@ class TimedStrength(BondStrength):
             rate_exponent,
             friction_angle=friction_angle,
             temperatures=(10.0, 60.0),
-            doubt=f"{least.doubt}; its softening of {RECALLED_SOFTENING:g} per kelvin is from memory, too",
+            caveat=f"{least.caveat}; its softening of {RECALLED_SOFTENING:g} per kelvin is from memory, too",
         )
 
     @classmethod
@@ -195,7 +195,7 @@ class TimedStrength(BondStrength):
         if not self.rate_exponent:
             return self
         if speed is None:
-            return self._with_doubt(
+            return self._with_caveat(
                 f"its class has no speed, so that its strength is that of {self.rate * 60e3:.3g} mm/min, of the test"
             )
         return self.at_rate(passage_rate(speed, depth, length, self.slip))
@@ -208,10 +208,10 @@ class TimedStrength(BondStrength):
         tensile = None if self.tensile_strength is None else share * self.tensile_strength
         # The law goes through its own point: another one of it is the same law.
         moved = replace(self, cohesion=share * self.cohesion, tensile_strength=tensile, **changed)  # type: ignore[arg-type]
-        return moved._with_doubt(beyond)
+        return moved._with_caveat(beyond)
 
-    def _with_doubt(self, text: str) -> Self:
-        return replace(self, doubt="; ".join(filter(None, (self.doubt, text)))) if text not in self.doubt else self
+    def _with_caveat(self, text: str) -> Self:
+        return replace(self, caveat="; ".join(filter(None, (self.caveat, text)))) if text not in self.caveat else self
 
     def __str__(self) -> str:
         rate = f" and {self.rate * 60e3:.3g} mm/min" if self.rate_exponent else ""

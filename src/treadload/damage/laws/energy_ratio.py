@@ -45,7 +45,7 @@ class EnergyRatio:
     reads: ClassVar[Quantity] = TENSION
     source: ClassVar[str] = "Roque et al. (2004), as printed in a thesis of the University of Florida"
     verified: ClassVar[bool] = True
-    doubt: ClassVar[str] = ""
+    caveat: ClassVar[str] = ""
 
     def __post_init__(self) -> None:
         positive("creep_compliance", self.creep_compliance, "1/Pa", "mixes are near 1e-10")

@@ -41,7 +41,7 @@ class FatigueLaw(Protocol):
         """Where its numbers come from."""
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """Which of its numbers have no source that could be read, in words; empty if none."""
 
     @property
@@ -103,14 +103,14 @@ class PowerLaw(ABC):
         """Slope b of ε = ε₁ (N / 10⁶)^b, negative."""
 
     @property
-    def doubt(self) -> str:
+    def caveat(self) -> str:
         """Which of its numbers have no source that could be read, in words; empty if none."""
         return ""
 
     @property
     def verified(self) -> bool:
         """True if all its numbers were read in its source."""
-        return not self.doubt
+        return not self.caveat
 
     @property
     def validity(self) -> tuple[float, float]:

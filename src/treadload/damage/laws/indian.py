@@ -128,7 +128,7 @@ class IrcCementTreated:
     source: ClassVar[str] = _IRC
     end_of_life: ClassVar[str] = "the cement-treated base has cracked"
     calibrated: ClassVar[str] = "by beam tests; the guideline sums the passes of single, tandem and tridem axles"
-    doubt: ClassVar[str] = "read in a secondary source, and no printed answer of it was at hand"
+    caveat: ClassVar[str] = "read in a secondary source, and no printed answer of it was at hand"
     verified: ClassVar[bool] = False
     includes_wander: ClassVar[bool] = False
     includes_weather: ClassVar[bool] = False

@@ -28,7 +28,7 @@ class Limit:
     source: ClassVar[str] = "a limit with the user's number"
     end_of_life: ClassVar[str] = "a reading has exceeded its limit once"
     calibrated: ClassVar[str] = "by the user's number: a strength, a threshold of damage"
-    doubt: ClassVar[str] = ""
+    caveat: ClassVar[str] = ""
     verified: ClassVar[bool] = True
     includes_wander: ClassVar[bool] = False
     by_peak: ClassVar[bool] = True

@@ -30,7 +30,7 @@ def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
     strains = np.asarray(strain, dtype=float)
     largest = float(np.max(strains, where=np.isfinite(strains), initial=0.0))
     beyond = _extrapolated(law, largest)
-    return tuple(filter(None, (f"{law}: {law.doubt}" if law.doubt else "", f"{law}: {beyond}" if beyond else "")))
+    return tuple(filter(None, (f"{law}: {law.caveat}" if law.caveat else "", f"{law}: {beyond}" if beyond else "")))
 
 
 def range_warnings(
@@ -43,12 +43,12 @@ def range_warnings(
     most of it; the largest reading of all, which may do little, besides.
     """
     most, largest = (_largest(values) for values in (shares, readings))
-    doubts = dict.fromkeys(f"{law}: {law.doubt}" for law in (laws[k][s] for k, s in (most, largest)) if law.doubt)
+    caveats = dict.fromkeys(f"{law}: {law.caveat}" for law in (laws[k][s] for k, s in (most, largest)) if law.caveat)
     beyond = {(k, s): _extrapolated(laws[k][s], float(value)) for (k, s), value in np.ndenumerate(readings)}
     left = [at for at, text in beyond.items() if text]
     part = sum(float(shares[at]) for at in left)
     worst = max(left, key=lambda at: float(shares[at]), default=largest)
-    texts = list(doubts)
+    texts = list(caveats)
     if part > _WORTH:
         texts.append(
             f"{laws[worst[0]][worst[1]]}: {100 * part:.0f} % of the damage is done outside of its range, most by "

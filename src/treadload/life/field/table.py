@@ -41,7 +41,7 @@ class SectionTable:
     name: of the table. sections: names (n,). entry, last: ages at the first and the last survey (n,), years. events:
     the interval of each event that the table knows, see `EVENTS`. thickness: of the asphalt (n,), m; traffic:
     standard axles a year (n,); mean_air: of the year (n,), °C; NaN where it is missing. family: of the base (n,), ""
-    where it is missing. surveys: ages of all surveys of each section, years. title, source, doubts: of the table.
+    where it is missing. surveys: ages of all surveys of each section, years. title, source, caveats: of the table.
     warnings: sentences about what is missing. predictions: file of ages
     that mechanics predicted for them. priors: keys of `Priors` where the table states them.
     """
@@ -58,7 +58,7 @@ class SectionTable:
     surveys: tuple[Array, ...]
     title: str = ""
     source: str = field(default="", repr=False)
-    doubts: tuple[str, ...] = field(default=(), repr=False)
+    caveats: tuple[str, ...] = field(default=(), repr=False)
     warnings: tuple[str, ...] = field(default=(), repr=False)
     predictions: Path | None = field(default=None, repr=False)
     priors: Mapping[str, object] = field(default_factory=dict, repr=False)
@@ -88,7 +88,7 @@ class SectionTable:
             tuple(self.surveys[k] for k in chosen),
             self.title,
             self.source,
-            self.doubts,
+            self.caveats,
             self.warnings,
             self.predictions,
             self.priors,

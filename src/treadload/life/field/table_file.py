@@ -54,7 +54,7 @@ class TableFile:
     are read of the columns of the sections. section: columns that make the name of a section, in both files. columns:
     names of columns where they differ from `COLUMNS`. units: of columns where they differ: thickness "mm", "cm", "m"
     or "in"; traffic "1000/year" or "1/year"; mean_air "degC" or "degF". empty_crack: what an empty cell of a crack
-    means, "none seen" or "not recorded". title, source, doubts: of the table. predictions: file of ages that
+    means, "none seen" or "not recorded". title, source, caveats: of the table. predictions: file of ages that
     mechanics predicted, see `write_predictions`. The table [priors] says what the sections do not tell, see `Priors`.
     """
 
@@ -67,7 +67,7 @@ class TableFile:
     empty_crack: Meaning = ""
     title: str = ""
     source: str = ""
-    doubts: tuple[str, ...] = ()
+    caveats: tuple[str, ...] = ()
     predictions: Path | None = None
 
     def column(self, meaning: str) -> str:
@@ -135,7 +135,7 @@ def _table(file: TableFile) -> SectionTable:
             )
     table = SectionTable(
         file.name, tuple(rows.names), entry, last, events, thickness, traffic, mean_air, families, ages,
-        file.title, sentence(file.source), tuple(map(sentence, file.doubts)), tuple(warnings), file.predictions,
+        file.title, sentence(file.source), tuple(map(sentence, file.caveats)), tuple(warnings), file.predictions,
     )  # fmt: skip
     return table if kept.all() else table.at(kept)
 

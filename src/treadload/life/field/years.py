@@ -106,7 +106,7 @@ def field_years(life: Life, road: Pavement, shift: FieldShift) -> FieldYears:
         {"criterion": names, "road_share": list(SHARES)},
     )
     caveats = (f"outside the range of the field shift {shift.name!r}: {outside}",) if outside else ()
-    return FieldYears(data, shift, outside, warnings=(*caveats, *shift.doubts[1:]))
+    return FieldYears(data, shift, outside, warnings=(*caveats, *shift.caveats[1:]))
 
 
 def _mean_surface(life: Life) -> float:

@@ -30,7 +30,7 @@ from treadload.pavement import Pavement
 
 _SAMPLING = MonteCarlo()
 # An error of the surface, relative in strain, above which it is worth a sentence.
-_DOUBTFUL = 0.03
+_CAVEATFUL = 0.03
 # An error of the years that is worth a sentence.
 _LOOSE = 0.1
 # Of fewer direct solves no error of their mean follows.
@@ -107,7 +107,7 @@ def life_reliability(
         f"{life.criteria[k].name}: its strain is interpolated with an error of {100 * math.expm1(error):.1f} %, "
         "which scatters with the rest; a smaller scatter of the inputs makes it smaller"
         for k, error in zip(chosen, errors, strict=True)
-        if error > _DOUBTFUL
+        if error > _CAVEATFUL
     )
     caveats += _loose(dataset)
     if math.isfinite(life.rut_years):

@@ -17,7 +17,7 @@ from treadload.damage.miner import miner
 from treadload.damage.words import RUT
 from treadload.errors import InputError, TreadloadError
 from treadload.kernels.arrays import Array
-from treadload.life.caveats import beyond_tables, traffic_doubts
+from treadload.life.caveats import beyond_tables, traffic_caveats
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
 from treadload.life.equivalents import Equivalents, life_equivalents
@@ -181,11 +181,11 @@ def _warned(design: Design, life: Life, solved: _Solved) -> list[str]:
         if after and not before:
             texts.append(f"{remedy.name}: it leaves the range of the law of {criterion.name}: {after}")
     before_too = {
-        *traffic_doubts(design.tire, design.traffic, design.climate),
+        *traffic_caveats(design.tire, design.traffic, design.climate),
         *beyond_tables(design.road, design.climate),
     }
     fresh = (
-        *traffic_doubts(changed.tire, changed.traffic, changed.climate),
+        *traffic_caveats(changed.tire, changed.traffic, changed.climate),
         *beyond_tables(changed.road, changed.climate),
     )
     return texts + [f"{remedy.name}: {text}" for text in fresh if text not in before_too]

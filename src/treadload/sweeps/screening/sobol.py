@@ -173,10 +173,10 @@ def sobol_indices(
         fields, coordinates, blocks=blocks, cases=len(values) // blocks, reading_mean=float(values.mean()),
         reading_deviation=deviation,
     )  # fmt: skip
-    return dataset, _doubts(dataset, blocks)
+    return dataset, _caveats(dataset, blocks)
 
 
-def _doubts(data: xr.Dataset, blocks: int) -> list[str]:
+def _caveats(data: xr.Dataset, blocks: int) -> list[str]:
     warnings = []
     if blocks < _FEWEST:
         warnings.append(

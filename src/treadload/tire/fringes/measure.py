@@ -29,8 +29,8 @@ from treadload.variables import dataset
 # Cells of a map seen in perspective, in pixels.
 _PIXELS_PER_CELL = 1.5
 # What is worth a warning: error that gamma leaves, rad; share of pixels; order, of half a turn, in deviations;
-# doubt of the estimate of gamma; grey levels in the brightest bin.
-_RIPPLE, _SHARE, _CLOSE, _DOUBT, _TOP = 0.02, 0.25, 1 / 4, 0.02, 1e-3
+# uncertainty of the estimate of gamma; grey levels in the brightest bin.
+_RIPPLE, _SHARE, _CLOSE, _UNCERTAINTY, _TOP = 0.02, 0.25, 1 / 4, 0.02, 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,14 +129,14 @@ def _learn(pattern: Pattern, steps: Steps, use: BoolArray, evaluation: Evaluatio
     """Noise and gamma, of the finest pattern on the tread."""
     count = len(pattern.tread)
     whole = use & (steps.used == count)
-    ratio, noise, doubt = leftovers(pattern.tread, steps, pattern.shifts, whole)
+    ratio, noise, uncertainty = leftovers(pattern.tread, steps, pattern.shifts, whole)
     record.noise = evaluation.noise if evaluation.noise is not None else noise
     if math.isnan(record.noise):
         record.warnings.append(
             "three steps leave nothing to determine the noise from, so no deviation of the heights is given; give "
             "noise in grey levels, or take four steps or more"
         )
-    certain = math.isfinite(ratio) and doubt < _DOUBT
+    certain = math.isfinite(ratio) and uncertainty < _UNCERTAINTY
     if certain:
         with np.errstate(all="ignore"):
             try:
@@ -303,7 +303,7 @@ def _mapped(
         filled=cells.filled,
         coverage=float(np.isfinite(cells.height).mean()),
     )
-    quality = replace(quality, warnings=(*record.warnings, *_doubts(quality)))
+    quality = replace(quality, warnings=(*record.warnings, *_caveats(quality)))
     fields = {
         "initial_gap": (("y", "x"), np.nanmax(cells.height) - cells.height),
         "gap_deviation": (("y", "x"), cells.deviation),
@@ -329,19 +329,19 @@ def _mapped(
     )
 
 
-def _doubts(quality: FringeQuality) -> list[str]:
-    doubts = []
+def _caveats(quality: FringeQuality) -> list[str]:
+    caveats = []
     if quality.shadow > _SHARE:
-        doubts.append(
+        caveats.append(
             f"{quality.shadow:.0%} of the pixels are in shadow; bring camera and projector closer, or brighten"
         )
     if quality.saturated > _SHARE:
-        doubts.append(f"{quality.saturated:.0%} of the pixels are saturated in too many steps; shorten the exposure")
+        caveats.append(f"{quality.saturated:.0%} of the pixels are saturated in too many steps; shorten the exposure")
     if quality.unsure > _SHARE:
-        doubts.append(
+        caveats.append(
             f"the fringe of {quality.unsure:.0%} of the pixels is not certain; check the order of the pictures"
         )
-    return doubts
+    return caveats
 
 
 def _check_top(tread: Array, evaluation: Evaluation, full: float | None, record: _Record) -> None:
