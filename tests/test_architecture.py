@@ -385,7 +385,7 @@ def section(title):
 
 
 def test_the_picture_of_the_house_shows_every_room():
-    picture = section("The rooms").split("```")[1]
+    picture = section("Subpackages").split("```")[1]
     drawn = set(re.findall(r"[a-z_]+/", picture)) | set(re.findall(r"[a-z_]+", picture))
     rooms = {f"{path.parent.name}/" for path in MODULES if path.parent != ROOT}
     beside = {path.stem for path in MODULES if path.parent == ROOT} - {"_version", "_public", "__main__"}
@@ -422,13 +422,13 @@ def rooms_of_fields(job, shape):
 
 
 def test_the_walk_of_a_gap_enters_ten_rooms_at_most():
-    """From the height map to the figure of the pressure; docs/explanation/architecture.md tells the same walk."""
+    """From the height map to the figure of the pressure; docs/explanation/architecture.md describes the same way."""
     across = (np.arange(24) - 11.5) * 5e-3
     tire = tl.Tire.from_height_map(across[None, :] ** 2 + across[:, None] ** 2, 5e-3, material=tl.Elastic(3e6, 0.5))
     road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
     rolling = tl.Rolling(normal_load=300, tractive_force=50, friction=0.7)
     rooms = rooms_of_fields(lambda: tl.solve_contact(tire, road, rolling).plot.pressure(), (24, 24))
-    told = re.findall(r"^\d+\. .*?`([a-z_/]+)/`", section("The walk of a gap"), re.M)
+    told = re.findall(r"^\d+\. .*?`([a-z_/]+)/`", section("From the gap to the figure"), re.M)
     assert len(told) == len(set(told)) <= 10
     # Leaves are no rooms, those of the kernels neither: the array library transforms and carries what they hand it.
     # The closed forms of a body are of distances, which have a shape of their own.

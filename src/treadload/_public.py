@@ -26,7 +26,7 @@ def names() -> list[str]:
 
 
 def named(name: str) -> object:
-    """What has a public name. Raises AttributeError that says where else a name is, or which one was meant."""
+    """What has a public name. Raises AttributeError that states where else a name is, or which one was meant."""
     home = _HOMES.get(name)
     if home is None:
         raise AttributeError(_unknown(name))
@@ -36,7 +36,7 @@ def named(name: str) -> object:
 
 
 def _unknown(name: str) -> str:
-    """What to say of a name that is not public."""
+    """The message about a name that is not public."""
     text = f"module {_PACKAGE!r} has no attribute {name!r}"
     # Notebooks ask for names that begin with "_", `from treadload import units` for a module before it imports it.
     if name.startswith("_") or any(os.path.exists(os.path.join(_FOLDER, name + end)) for end in ("", ".py")):

@@ -49,7 +49,7 @@ class Holds:
     fields without NaN and infinity. bounded: fields with a number somewhere and infinity nowhere. largest: field →
     largest size. codes: field → how many whole numbers from 0 it holds. with_it: variable → what it is read with.
     json: attributes that hold a list or a table as JSON, where they are there. tree: variables without which a part
-    of a file says nothing; a file is checked part by part as it is opened where the class gives some. agree: called
+    of a file has no meaning; a file is checked part by part as it is opened where the class gives some. agree: called
     with a dataset that is checked so far; what it raises refuses it. with_field: field of the class → what of `maybe`
     is there unless the field is None. stats: entries of `stats` of which the first needs the others, all numbers.
     """
@@ -98,7 +98,7 @@ class BaseResult(Described):
     """Base of all results: one question, one dataset, its numbers row by row.
 
     title: of the class, what it is in words. subject: of a page about results of the class alone. group: of the
-    class, its name in a tree of results; `group_name` may tell results of one class apart. sections: names that it
+    class, its name in a tree of results; `group_name` may distinguish results of one class. sections: names that it
     may give to parts of such a result, whose numbers are those of the whole. also: further names of it in files.
     columns: how a report compares results of several cases; None shows each by itself.
     holds: what a dataset from a file must have before it becomes an object of the class.

@@ -1,4 +1,4 @@
-"""What a description or a result says of itself where nobody asked for more: one screen at most."""
+"""The short form of a description or a result: one screen at most."""
 
 from __future__ import annotations
 
@@ -102,7 +102,7 @@ def title_of(result: Described) -> str:
 
 
 def verdict_of(result: Described) -> str:
-    """The sentence that answers, of the row "verdict"; empty without one."""
+    """The sentence of the row "verdict", the answer; empty without one."""
     return next((str(row.value) for row in result.rows() if row.key == "verdict"), "")
 
 
@@ -132,7 +132,7 @@ def as_call(thing: Frozen) -> str:
 
 
 def first_line(result: Described) -> str:
-    """A result in a line: its kind, and its verdict, else its question, else its first row. Serves as `__repr__`."""
+    """A result in a line: its kind, and its assessment, question or first row, as `__repr__` shows it."""
     text = verdict_of(result) or result.heading
     if not text:
         text = next((f"{row.label} {row.sentence}".strip() for row in result.rows()), result.title)
@@ -173,7 +173,7 @@ def as_html(
 
 
 def _shown(result: Described, *, folded: bool = False) -> str:
-    """The rows of a result. folded: the verdict too, which stands in the title otherwise."""
+    """The rows of a result. folded: the assessment too, which stands in the title otherwise."""
     return _rows_as_html([row for row in result.rows() if row.key != "verdict" or folded])
 
 

@@ -1,4 +1,4 @@
-"""Errors that say what was wrong, the number, the bound and the remedy, in one line."""
+"""Errors that state what was wrong, the number, the bound and the remedy, in one line."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class TreadloadError(Exception):
 def one_line(text: str) -> str:
     """A text without line breaks and control characters, its endless words and itself cut in the middle.
 
-    Messages quote what they were given, and what other libraries said of it.
+    Messages quote what they were given, and the messages of other libraries about it.
     """
     text = re.sub(r"[\x00-\x08\x0e-\x1b\x7f-\x84\x86-\x9f]", "\ufffd", " ".join(text.splitlines()))
     text = re.sub(rf"\S{{{_WORD},}}", lambda word: f"{word[0][:100]}…{word[0][-20:]}", text)
@@ -118,7 +118,7 @@ def meant(wanted: object, names: Iterable[str], cutoff: float = 0.6) -> str | No
 
 
 def nearest(name: object, candidates: Iterable[str], otherwise: str = "known are") -> str:
-    """What to say of an unknown name: "did you mean 'x'?", or all that are known. otherwise: words before these."""
+    """The message about an unknown name: "did you mean 'x'?", or all known names. otherwise: words before these."""
     names = list(candidates)
     near = meant(name, names)
     return f"{otherwise} {', '.join(names)}" if near is None else f"did you mean {near!r}?"

@@ -1,6 +1,6 @@
 """Figures of results, registered where they are drawn: `result.plot`, report, page and reference list them.
 
-A drawing function takes a result, or its dataset, and says which:
+A drawing function takes a result, or its dataset, and its decorator states which:
 
     @figure("Contact", title="Contact pressure", caption="Seen from above.", main=True)
     def pressure(contact, *, ax=None): ...

@@ -41,7 +41,7 @@ HTML = {".html": "a page", ".htm": "a page"}
 
 
 def check_suffix(path: str | os.PathLike[str], suffixes: Mapping[str, str], what: str) -> str:
-    """The suffix of a path in small letters, if it is a known one, so that a file holds what its name says.
+    """The suffix of a path in small letters, if it is a known one, so that a file is what its name promises.
 
     suffixes: suffixes and what they mean. what: is to be written, for the error. Raises InputError.
     """
@@ -166,7 +166,7 @@ def _tree(path: Path) -> xr.DataTree:
         _check_links(probe)
 
     class Remembering(h5py.File):  # type: ignore[misc]
-        """Keeps what it has opened: h5netcdf opens each dataset anew for each of its properties, ninety times."""
+        """Keeps what it has opened: h5netcdf opens each dataset again for each of its properties, ninety times."""
 
         def __init__(self) -> None:
             super().__init__(path, "r")
@@ -287,7 +287,7 @@ class _Place:
 
     @contextlib.contextmanager
     def _refusing(self, content: Content) -> Iterator[None]:
-        """Say why a file could not be written, what it needs, and that the old one is still there."""
+        """State why a file could not be written, what it needs, and that the old one is still there."""
         try:
             yield
         except OSError as error:

@@ -65,7 +65,7 @@ class Registry:
         self._fill: Callable[[], object] | None = None
 
     def filled_by(self, fill: Callable[[], object]) -> None:
-        """Say what imports the modules that register ours; it is called once, when a name is first needed."""
+        """Set the function that imports the modules that register ours; it runs once, when a name is first needed."""
         self._fill = fill
 
     def _filled(self) -> None:
@@ -74,7 +74,7 @@ class Registry:
             fill()
 
     def makes(self, *faces: object) -> None:
-        """Say what its makers return: types by which `treadload.read` finds the registry."""
+        """Set the types that its makers return, by which `treadload.read` finds the registry."""
         self.faces = faces
 
     def register(self, *names: str) -> Callable[[Target], Target]:
@@ -125,7 +125,7 @@ class Registry:
         return _loaded(points[name], self)
 
     def unknown(self, name: object, names: Iterable[str]) -> str:
-        """What to say of a name that is not one of those known."""
+        """The message about an unknown name."""
         what = self.key if self.key != "kind" else self.noun if self.words else f"{self.noun} of the kind"
         what = what or self.noun
         # The order in which rooms were loaded is nobody's business.

@@ -1,6 +1,6 @@
 """Numbers from text files: the separator and the decimal mark are recognised, or the file is refused.
 
-A cell is a number, a word that says that there is none, or an error: what cannot be read never becomes a hole.
+A cell is a number, a word that states that there is none, or an error: what cannot be read never becomes a hole.
 """
 
 from __future__ import annotations
@@ -70,7 +70,8 @@ class Table:
         first: int = 0,
         name: Callable[[int], str] = lambda column: "the value",
     ) -> tuple[NDArray[np.float64], str]:
-        """Numbers (rows, columns) from row `first` on, NaN where a cell says so, and what was recognised, in words.
+        """Numbers (rows, columns) from row `first` on, NaN where a cell is marked as missing, and what was
+        recognised, in words.
 
         columns: places in the row, all if left out. name: of what stands in a column, for errors.
         Raises InputError that names line, row and column for anything else, for infinity, and for rows of

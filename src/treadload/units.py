@@ -143,7 +143,7 @@ def leading_number(text: str) -> tuple[float, str]:
 
 
 def _several_marks(text: str) -> str:
-    """What to say of a number with more than one decimal mark."""
+    """The message about a number with more than one decimal mark."""
     number = re.match(r"[+\-\u2212]?[0-9.,]*", text)
     assert number is not None
     shown, unit = number[0].rstrip(".,"), text[number.end() :]

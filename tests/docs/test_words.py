@@ -1,7 +1,6 @@
-"""Words of the field: what pages, messages, labels and help texts do not say, and what to write instead.
+"""Words of the field: terms that pages, messages, labels, help texts and docstrings avoid, and what to write instead.
 
 The terms are those of the project's style: results do not act, and a thing has the name that the field gives it.
-Docstrings of the source and the history of development are not held to it yet.
 """
 
 import ast
@@ -40,16 +39,24 @@ PAGES_ALONE = {
     r"\b[Vv]erdicts?\b": "assessment",
     r"\bthe road extends\b": "the tensile strain reaches",
 }
-# Pages that record what was tried, and the one of the code's own parts.
-LEFT = {"development_history.md", "architecture.md"}
+# Of a docstring as well, where the name of an argument or a class may stand.
+DOCSTRINGS = EVERYWHERE | {
+    r"\b[Rr]oads? with a grain\b": "cross-anisotropic layers",
+    r"\b[Ww]hen layers part\b": "interface debonding",
+    r"\b[Yy]ears with a probability\b": "reliability of the service life",
+    r"\bstones in mortar\b": "aggregate-scale model",
+    r"\bof the house\b|\bthe house's\b": "package",
+    r"\b(?:[Aa]n?|[Tt]he|[Ii]ts) verdicts?\b": "assessment",
+    r"\bthe road extends\b": "the tensile strain reaches",
+}
 GENERATED = ("executed", "auto_gallery", "auto_validation", "_ext")
 PAGES = sorted(
     page
     for kind in ("*.md", "*.rst", "gallery/*.py", "validation_gallery/*.py")
     for page in (CLONE / "docs").rglob(kind)
-    if page.name not in LEFT and page.relative_to(CLONE / "docs").parts[0] not in GENERATED
+    if page.relative_to(CLONE / "docs").parts[0] not in GENERATED
 )
-PAGES += [CLONE / "README.md", CLONE / "CONTRIBUTING.md"]
+PAGES += [CLONE / name for name in ("README.md", "CONTRIBUTING.md", "CHANGELOG.md", "AGENTS.md")]
 # Texts that are no sentences for a reader: names in JavaScript and CSS.
 NO_SENTENCE = re.compile(r"=>|\{font-family|^<span")
 
@@ -105,6 +112,38 @@ def strings(path):
 def test_messages_have_the_words_of_the_field(path):
     texts = [text for text in strings(path) if " " in text.strip() and not NO_SENTENCE.search(text)]
     assert [fault for text in texts for fault in faults(text, EVERYWHERE)] == []
+
+
+def docstrings(path):
+    """Docstrings of a module, its classes, functions and attributes that have public names, without code."""
+    tree = ast.parse(path.read_text("utf-8"))
+    todo = [tree]
+    while todo:
+        node = todo.pop()
+        for child in node.body:
+            if isinstance(child, ast.Expr) and isinstance(child.value, ast.Constant):
+                # The first of an owner, and those below an attribute.
+                names = [part.arg for part in ast.walk(node) if isinstance(part, ast.arg)]
+                code = "|".join([r"`[^`\n]*`", "^ *>>>.*", *(rf"\b{name}:" for name in names)])
+                yield re.sub(code, "", str(child.value.value), flags=re.MULTILINE)
+            elif isinstance(child, ast.ClassDef | ast.FunctionDef) and not child.name.startswith("_"):
+                todo.append(child)
+
+
+# The pages of the browser have no public names.
+@pytest.mark.parametrize(
+    "path",
+    [path for path in sorted(ROOT.rglob("*.py")) if path.parent.name != "app"],
+    ids=lambda path: path.relative_to(ROOT).as_posix(),
+)
+def test_docstrings_have_the_words_of_the_field(path):
+    assert [fault for text in docstrings(path) for fault in faults(text, DOCSTRINGS)] == []
+
+
+def test_docstrings_are_found():
+    texts = list(docstrings(ROOT / "materials" / "elastic.py"))
+    assert len(texts) > 3
+    assert any("Isotropic" in text or "isotropic" in text for text in texts)
 
 
 def test_a_fault_is_found():

@@ -6,8 +6,8 @@ neighbour inside, the means of that root have the ratio
 
     r(f) = f^{3/2} / ((1 + f)^{3/2} - f^{3/2}),    r(1) = 0.547,
 
-so that the ratio of two pressures tells f. A cell beside a groove, whose wall is the edge, presses more than that
-and counts as covered.
+so that f follows from the ratio of two pressures. A cell beside a groove, whose wall is the edge, presses more than
+that and counts as covered.
 """
 
 from __future__ import annotations

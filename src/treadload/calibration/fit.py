@@ -74,7 +74,7 @@ def calibrate(
     setting: road=, friction=, errors=, spacing= and tolerance=.
     road: that it was measured on; left out, a flat track of steel. friction: Coulomb's, of rolling readings, 0.7.
     errors: standard deviations of readings by name, for rows without their own, SI or texts, "0.3 mm", "2 %". Where
-    none is given, a customary one weighs the reading, and the scatter of the data tells the size of all errors.
+    none is given, a customary one weighs the reading, and the scatter of the data determines the size of all errors.
     spacing: cells of the contact, m; left out, 6 mm, and 3 mm where shares, maps or widths are fitted. tolerance: of
     normal contact, 1e-8.
 
@@ -82,7 +82,7 @@ def calibrate(
     rolls freely, and they lie where they read its pressure best. E scales out of the tables of ribs and
     friction does not enter them; where ν is sought, they are interpolated between three ν from its lower to its upper
     bound, each of which takes a second or so for each kind of rib, once.
-    Returns the fitted tire, standard deviations, correlations, and in words what the data cannot tell.
+    Returns the fitted tire, standard deviations, correlations, and in words what the data cannot determine.
     Raises InputError for fewer data than unknowns and what cannot be measured or sought; ConvergenceError of a
     contact, and of a search that did not end.
     Method: trust-region reflective least squares (Branch, Coleman & Li 1999); covariance from the Jacobian.

@@ -114,7 +114,7 @@ def faces_of(tire: Tire) -> Array:
 
 
 def _uniform(faces: Array, sensor: Footprint) -> GridLoad:
-    """Ribs that press alike over the length of a footprint: what tells where pins stood under them."""
+    """Ribs that press alike over the length of a footprint: they determine where pins stood under them."""
     read = np.where(sensor.sensels, np.maximum(sensor.pressure, 0.0), 0.0).sum(axis=0)
     at = np.flatnonzero(read > 0)
     length = float(sensor.grid.x[at[-1]] - sensor.grid.x[at[0]]) + sensor.grid.dx

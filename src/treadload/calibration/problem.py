@@ -184,7 +184,7 @@ class Model:
     def readings(self, values: Sequence[float], row: int) -> Array:
         """All readings of a row, SI, in the order of the problem.
 
-        Raises ConvergenceError and InputError that say at which numbers.
+        Raises ConvergenceError and InputError that state the numbers of the tire at which it happened.
         """
         problem = self.problem
         try:
@@ -293,7 +293,7 @@ class Model:
         return values_by_name
 
     def _through(self, pressure: Array, grid: Grid, row: int) -> Array:
-        """Shares of blocks as the sensor tells them, its middle of pressure laid on the computed one."""
+        """Shares of blocks as a sensor measures them, its centre of pressure moved onto the computed one."""
         blocks, sensor = self.problem.blocks[row], self.problem.data[row].footprint
         load = GridLoad(grid, pressure)
         total = float(pressure.sum())

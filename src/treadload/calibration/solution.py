@@ -1,4 +1,4 @@
-"""The result of a calibration: the fitted tire, its error bars, and in words what the data cannot tell."""
+"""The result of a calibration: the fitted tire, its error bars, and in words what the data cannot determine."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ class Calibration(BaseResult, group="calibration"):
         return float(self._of(name)["fitted_value"])
 
     def standard_deviation(self, name: str) -> float:
-        """Of a fitted number, SI; NaN where the data do not tell it, or it ended at a bound."""
+        """Of a fitted number, SI; NaN where the data do not determine it, or it ended at a bound."""
         return float(self._of(name)["standard_deviation"])
 
     def interval(self, name: str, level: float = 0.95) -> tuple[float, float]:
@@ -118,7 +118,7 @@ class Calibration(BaseResult, group="calibration"):
 
     @property
     def undecided(self) -> tuple[str, ...]:
-        """Sentences on what these data cannot tell."""
+        """Sentences on what these data cannot determine."""
         return tuple(self.dataset.attrs["undecided"])
 
     def _of(self, name: str) -> xr.Dataset:
@@ -134,7 +134,7 @@ class Calibration(BaseResult, group="calibration"):
         return f"{name}, {len(self.sought)} numbers from {readings} readings"
 
     def rows(self) -> tuple[Row, ...]:
-        """Numbers with error bars, how well they fit, and what the data cannot tell."""
+        """Numbers with error bars, how well they fit, and what the data cannot determine."""
         data, rows = self.dataset, []
         for unknown in self.sought:
             name, (factor, unit) = unknown.name, shown(unknown.unit)

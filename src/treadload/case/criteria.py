@@ -55,13 +55,13 @@ class CriterionTable(TargetTable):
 
     @property
     def told_quantity(self) -> bool:
-        """True if the table says what is read."""
+        """True if the table states what is read."""
         table: Any = self
         return table.reads is not None
 
     @property
     def quantity(self) -> Quantity | None:
-        """What is read: as the table says, or as its law does; None where only the built law shows it."""
+        """What is read: as the table states it, or its law; None where only the built law determines it."""
         table: Any = self
         if self.told_quantity:
             quantity: Quantity = _READS.build(table.reads)
@@ -129,7 +129,7 @@ def without_absent(criterion: CriterionTable, absent: Mapping[int, str]) -> Crit
 
 
 def quantity_of(table: Mapping[str, object]) -> Quantity | None:
-    """What a table of criteria reads; None where it does not say."""
+    """What a table of criteria reads; None where it does not state it."""
     kind = CRITERION.table_for(table)
     if kind is None:
         return None

@@ -224,7 +224,7 @@ def _references(schema: object) -> Iterator[str]:
 
 
 def _plain(schema: object, *, keys: bool = False) -> object:
-    """Without what says nothing: names that repeat the key, and null, which TOML does not have.
+    """Without what adds nothing: names that repeat the key, and null, which TOML does not have.
 
     keys: True where the schema is a table of keys, whose names are the user's.
     """

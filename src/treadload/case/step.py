@@ -1,8 +1,8 @@
 """What a case can ask for: a step is a table of the case that becomes a result.
 
-A step is a class with a name, which is its table in a case; it says after which results it comes, and solves, plans,
-cites and writes itself as Python. Defining the class registers it; a package declares the module as an entry point of
-the group `treadload.steps`, whose name is that of the step.
+A step is a class with a name, which is its table in a case; it states after which results it comes, and solves,
+plans, cites and writes itself as Python. Defining the class registers it; a package declares the module as an entry
+point of the group `treadload.steps`, whose name is that of the step.
 """
 
 from __future__ import annotations
@@ -135,12 +135,12 @@ class Source(Step):
 
     @classmethod
     def stray_text(cls, key: str) -> str:
-        """What to say of a key that a case with this source has no use for."""
+        """The message about a key that a case with this source does not use."""
         return f"a case with [{cls.name}] has no use for {key!r}; leave it out"
 
     @classmethod
     def missing_text(cls, key: str) -> str:
-        """What to say of a key that is not given."""
+        """The message about a missing key."""
         return f"{key!r} is missing"
 
     def check(self, case: Description) -> None:

@@ -17,7 +17,7 @@ from treadload.spelling import SPELT
 
 DONE, FAILED, WRONG = 0, 1, 2
 NOTHING = "no file was changed but those listed as written; the same command starts again"
-"""What an interruption keeps of a command that has nothing else to say of it."""
+"""What an interruption keeps of a command that has no message of its own."""
 
 # Signals that ask a process to end: Ctrl-C, `kill` and schedulers, a terminal that was closed.
 _ASKING = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
@@ -44,7 +44,7 @@ def interrupted(kept: str = "") -> tuple[str, int]:
 
 @contextlib.contextmanager
 def orderly() -> Iterator[None]:
-    """The whole of a command: signals end it as Ctrl-C does, and what could not be printed is told at its end."""
+    """The whole of a command: signals end it as Ctrl-C does; a last message names what could not be printed."""
     # A command before it in the same process, as in tests, may have been interrupted.
     _Signal.since, _Signal.is_answered = None, False
     _LOST.clear()

@@ -58,7 +58,7 @@ class Lines:
         self._text = f"{done} of {total} {what}s{self._pace(done, total)}"
 
     def _pace(self, done: int, total: int) -> str:
-        """Rate and time left, once both can be told."""
+        """Rate and time left, once both can be stated."""
         now = time.monotonic()
         if self._first is None or done < self._first[0]:
             self._first = (done, now)
@@ -96,7 +96,7 @@ def _lines(console: Console) -> Lines:
 
 @contextlib.contextmanager
 def stages(console: Console, *, quiet: bool) -> Iterator[Stage]:
-    """What to call with the text of every stage. console: stderr. quiet: True to say nothing."""
+    """What to call with the text of every stage. console: stderr. quiet: True to print nothing."""
     if quiet:
         yield lambda text: None
     elif console.is_terminal:

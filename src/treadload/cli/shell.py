@@ -31,7 +31,7 @@ class _Screen(Console):
     """A console that goes on where nobody reads any more, or the disk behind it is full: files are still written."""
 
     def on_broken_pipe(self) -> None:
-        """Say nothing from now on."""
+        """Print nothing from now on."""
         ending.let_go(self.file, BrokenPipeError())
 
     def _check_buffer(self) -> None:

@@ -1,4 +1,4 @@
-"""`treadload study`: what a study in a store says, as text, as tables, as a page."""
+"""`treadload study`: the results of a study in a store, as text, as tables, as a page."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`treadload scan`, `card` and `tir`: what a tire is, what it tells under load, its Magic Formula."""
+"""`treadload scan`, `card` and `tir`: what a tire is, its properties under load, its Magic Formula."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def _measured(
     *,
     quiet: bool,
 ) -> None:
-    """A measurement, written and drawn where that is asked for, and told. draw: writes its figure."""
+    """A measurement, written and drawn where that is asked for, and printed. draw: writes its figure."""
     from treadload.files import check_writable
     from treadload.results.exports import write
 

@@ -49,8 +49,8 @@ MOST_POSITIONS = 400
 class Crossing(BaseResult, group="crossing"):
     """A wheel that crosses an obstacle, with the question that was asked.
 
-    dataset: scalars over (position,), pressure over (position, y, x) in the wheel's frame, and over (y, road_x) what
-    the road felt: its height, the largest pressure, the work of closing and of friction; plain_pressure and
+    dataset: scalars over (position,), pressure over (position, y, x) in the wheel's frame, and over (y, road_x) the
+    road's own fields: its height, the largest pressure, the work of closing and of friction; plain_pressure and
     plain_work, the largest without the obstacle; edge_work, the largest closing work within a cell of an edge.
     hold: "load" or "axle". stats: iterations, seconds. warnings: sentences for the user.
     """

@@ -1,4 +1,4 @@
-"""What a road and a wheel have of a crossing: fields over its positions and along the road, and its caveats."""
+"""Fields of a crossing: over the positions of the wheel and along the road, and its caveats."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class Scene:
 def fields_of(
     scene: Scene, contacts: Sequence[NormalSolution], rubbed: Sequence[State] | None, plain: NormalSolution
 ) -> xr.Dataset:
-    """Fields of a crossing over its positions, and over the road what it felt, as `Crossing` describes them.
+    """Fields of a crossing over its positions, and those along the road, as `Crossing` describes them.
 
     contacts: the contact at every position; rubbed: shear there, None without friction; plain: that without the
     obstacle.

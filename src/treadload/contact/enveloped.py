@@ -1,7 +1,8 @@
-"""What a road feels of a pressure on peaks: the enveloped pressure, with the same load, for the layers below.
+"""The pressure on peaks as the layers of a road receive it: the enveloped pressure, with the same load, for the
+layers below.
 
 A Gaussian filter after ISO 16610-21: a wave of the enveloping length is halved, longer ones stay, shorter ones go.
-What lies deeper than about that length feels no difference (Saint-Venant).
+Below about that length the stress does not depend on the peaks (Saint-Venant).
 """
 
 from __future__ import annotations

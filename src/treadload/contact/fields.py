@@ -1,6 +1,7 @@
 """The fields of a contact, named and signed as in results: the one place where the solvers' signs turn.
 
-Inside the solvers shear acts on the tire and u = u_tire - u_road; results hold what the road feels and does.
+Inside the solvers shear acts on the tire and u = u_tire - u_road; results hold the shear on the road and the road's
+displacement.
 """
 
 from __future__ import annotations

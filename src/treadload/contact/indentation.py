@@ -121,9 +121,9 @@ def solve_indentation(
     half-space of an ElastoPlastic whose law knows no time. loads: N, >= 0, one a step, in their order; 0 lifts it
     off. spacing: of the cells, m, as in `solve_contact`. depth: of what may yield, m; left out, 2.2 times the radius
     of the elastic contact under the largest load. layers: rows of cells in it. tolerance: of the plastic strain of a
-    part of a step, relative. The contact has no friction, and feels the dent. The way from load to load is taken in
-    parts, which are halved until peak pressure and largest plastic strain change by less than 1.5 %; what the last
-    halving changed is in the result, and in a warning where 32 parts are too few. Raises InputError, and
+    part of a step, relative. The contact has no friction, and depends on the dent. The way from load to load is
+    taken in parts, which are halved until peak pressure and largest plastic strain change by less than 1.5 %; what
+    the last halving changed is in the result, and in a warning where 32 parts are too few. Raises InputError, and
     ConvergenceError with the residual reached.
     """
     start = time.perf_counter()

@@ -165,7 +165,7 @@ class Pressing:
         return Pressed(load, approach, pressure, sunk, state, count, before, size)
 
     def _elastic(self, load: float, state: State) -> tuple[NormalSolution | None, bool]:
-        """Contact over a state as it is, and whether the ground bears it without yielding."""
+        """Contact over a state as it is, and whether the ground stays elastic under it."""
         self.rounds += 1
         zone, inner = self.zone, self.zone.of(state)
         stress, touching = zone.stress_of_strain(inner.strain), None

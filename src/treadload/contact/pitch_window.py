@@ -106,7 +106,7 @@ class Window:
             return shifted
 
         tangential = state.tangential
-        # Which cells stuck is found anew in every step.
+        # Which cells stuck is found again in every step.
         moved_shear = replace(
             tangential,
             shear=moved(tangential.shear),

@@ -105,7 +105,7 @@ def check_step(relief: Relief, cell: float) -> None:
 
 
 def caveats_of(relief: Relief, grid: Grid) -> Sequence[str]:
-    """What the cells of a contact cannot tell of the road's relief."""
+    """What the cells of a contact cannot resolve of the road's relief."""
     finest = getattr(relief, "finest_wave", None)
     step = max(grid.dx, grid.dy)
     if finest is None or finest >= _CELLS_PER_WAVE * step:

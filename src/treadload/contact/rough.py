@@ -55,8 +55,8 @@ class TextureContact(BaseResult, group="texture"):
     """Rubber on a patch of texture under several mean pressures.
 
     dataset: over mean_pressure the share of the area that touches (real_area_ratio), the mean gap, the peak pressure,
-    and what Persson's theory and independent asperities say; over local_pressure as well the share of the load that
-    pressures above it carry, and of the area under them; texture_height and pressure over (y, x) at
+    and the predictions of Persson's theory and of independent asperities; over local_pressure as well the share of
+    the load that pressures above it carry, and of the area under them; texture_height and pressure over (y, x) at
     reference_pressure. stats: iterations, seconds. warnings: sentences. texture, rubber: the question.
     """
 

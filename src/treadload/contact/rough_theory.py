@@ -1,4 +1,4 @@
-"""What theories of rough contact say, for comparison: real area against pressure of an elastic body on a rough one.
+"""Theories of rough contact, for comparison: real area against pressure of an elastic body on a rough one.
 
 E* is the plane-strain modulus, E/(1 - ν²) of rubber on a rigid road; slope the root of the mean square gradient.
 
@@ -22,7 +22,7 @@ def persson_area(pressure: Array, modulus: float, slope: float) -> Array:
 
 
 def asperity_area(pressure: Array, modulus: float, slope: float) -> Array:
-    """The same by asperities that do not feel each other, at vanishing load: √(2π) p/(E* slope)."""
+    """The same by independent asperities, at vanishing load: √(2π) p/(E* slope)."""
     return np.asarray(math.sqrt(2 * math.pi) * np.asarray(pressure) / (modulus * slope))
 
 

@@ -27,7 +27,7 @@ _LOSSES = ("friction_work_total", "friction_power_total", "flash_temperature")
 class Contact(BaseResult, group="contact"):
     """Pressure and shear between a tire and a road, with the question that was asked.
 
-    dataset: fields on (y, x) and scalars, named and signed as docs/explanation/conventions.md says.
+    dataset: fields on (y, x) and scalars, named and signed as in docs/explanation/conventions.md.
     stats: iterations, residuals, seconds. warnings: sentences for the user.
     """
 

@@ -60,9 +60,9 @@ def solve_contact(
 
     tire: its surface and material; a viscoelastic one needs the rolling speed. rolling: load or approach,
     forces or creepages, friction.
-    road: road_compliance says how its surface gives way: as a "half_space" of the top layer's material, which
-    serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats say how much
-    of the compliance is the road's (road_share) and what its layers change (layer_share); a warning says when
+    road: road_compliance selects how its surface deforms: as a "half_space" of the top layer's material, which
+    serves every soft tire, or as the "layers" do, which a steel wheel or a plate needs. The stats state how much
+    of the compliance is the road's (road_share) and what its layers change (layer_share); a warning states that
     layers left out matter. An elastic tire and elastic layers only; stress-dependent ones have their nominal moduli.
     relief: how far the road's surface rises above its plane, as a `pavement.Texture` or any `pavement.Relief`; None
     for a plane. The approach is then counted from the plane, and the dataset has `road_height`. A texture

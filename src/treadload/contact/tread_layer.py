@@ -56,7 +56,8 @@ class TreadRubber:
         return self.modulus / (1 - self.poisson**2)
 
     def compliance(self, k: Array) -> Array:
-        """Displacement by a pressure wave of |k|, 1/m, over its amplitude, m/Pa; 0 at k = 0, which no texture feels.
+        """Displacement by a pressure wave of |k|, 1/m, over its amplitude, m/Pa; 0 at k = 0, which no texture
+        contains.
 
         2/(E* k), and of a layer bonded to a rigid base less by a function of k times thickness (Johnson 1985, 5.8).
         """

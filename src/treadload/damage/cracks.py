@@ -108,7 +108,7 @@ def envelope(
     dataset over (depth, y): extension_strain; instant_x, where the point stands in the response's x at its worst
     instant; extension_direction (component); crack_angle, crack_dip, crack_orientation, NaN and "none" where there is
     never an extension, or no principal stress is tensile when it is largest. The instant is one of the response's x:
-    the strain errs by the square of their distance. Its attribute `warnings` says where the worst instant is the
+    the strain errs by the square of their distance. Its attribute `warnings` states where the worst instant is the
     first or the last x. Raises InputError for a response of a single x.
     """
     check_tolerance(oblique_tolerance)

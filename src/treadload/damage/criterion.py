@@ -1,4 +1,4 @@
-"""A criterion: a quantity at a place of a road, and the law that says after how many passes the road fails there."""
+"""A criterion: a quantity at a place of a road, and the law that gives the load repetitions to failure there."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ _FARTHEST, _OFF_THE_END = 0.5, 1e-6
 
 @dataclass(frozen=True)
 class Criterion:
-    """A quantity at a place of the road, and the law that says after how many passes the road fails there.
+    """A quantity at a place of the road, and the law that gives the load repetitions until the road fails there.
 
     name: for tables and figures. law: a fatigue law; or a function that gives it at a temperature of the
     layer, °C. layer: counted from the surface, 0 is the top one, negative from the bottom. place: "top" or
@@ -117,7 +117,7 @@ class Criterion:
 
         name: for tables and figures. strength, law: of the bond; strength at the temperature of the layer above.
         interface: counted from the surface, 0 below the top layer, negative from the lowest.
-        Tension counts only where the strength has a limit for it; `assess_bonds` says how much of it there is.
+        Tension counts only where the strength has a limit for it; `assess_bonds` states how large it is.
         """
         return cls(name, law, interface, "interface", reads=BondUtilisation(strength))
 
@@ -158,7 +158,7 @@ class Criterion:
 
     @property
     def side(self) -> Side:
-        """Side of the interface on which it reads; what a bond bears is the same on both."""
+        """Side of the interface on which it reads; the tractions on a bond are the same on both."""
         return "below" if self.place == "top" else "above"
 
     def number(self, road: Pavement) -> int:

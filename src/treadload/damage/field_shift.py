@@ -88,7 +88,7 @@ class FieldShift:
         return self.level / self.predicted(line)
 
     def years(self, probability: float = 0.5) -> float:
-        """Years by which a share of roads of this kind shows the event, whatever the mechanics say."""
+        """Years by which a share of roads of this kind shows the event, whatever the mechanics predict."""
         return self.level * self._spread(probability)
 
     def shifted(self, years: float, probability: float = 0.5, line: Line = "fresh") -> float:

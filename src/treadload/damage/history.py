@@ -127,7 +127,7 @@ def add_thermal_stress(response: Source, stress: ArrayLike) -> Response | xr.Dat
     response: of `solve_response`, or a dataset like its own. stress: Pa, tension positive, one for all depths or
     (depth,): an instant of `thermal_stress` with restraint "plane". Invariants of the stress follow; the strains
     stay those of the traffic, for a restrained road that cools does not strain. Linear viscoelasticity lets the two
-    add up. Returns a Response of a Response, else a dataset. A verdict on it reads tension of both together, also
+    add up. Returns a Response of a Response, else a dataset. An assessment on it reads tension of both together, also
     where it solves the road again. Raises InputError.
     """
     data = gridded(response)

@@ -101,7 +101,7 @@ def _at_depths(data: xr.Dataset, depths: Array) -> xr.Dataset:
 
 @dataclass(frozen=True, eq=False)
 class BondVerdict(BaseResult, group="bonds"):
-    """What the strengths of a road's interfaces say of a load.
+    """Whether the interfaces of a road are strong enough for a load.
 
     dataset: the fields of `interface_fields`, utilisation and, with a law, bond_passes (interface, y, x), NaN where
     no strength is given; largest_utilisation, parting_x, parting_y, parting_passes (interface), parting_shear and
@@ -136,7 +136,7 @@ class BondVerdict(BaseResult, group="bonds"):
         return int(np.nanargmax(self.dataset["largest_utilisation"].to_numpy()))
 
     def rows(self) -> tuple[Row, ...]:
-        """Strength, utilisation, shear and normal stress at the worst place of every interface, and the verdict."""
+        """Strength, utilisation, shear and normal stress at the worst place of every interface; the assessment."""
         rows: list[Row] = []
         for k, strength in enumerate(self.strengths):
             data = self.dataset.isel(interface=k)

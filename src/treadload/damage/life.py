@@ -164,7 +164,7 @@ class Life(BaseResult, group="life"):
         return heading_of(self.traffic, self.climate)
 
     def rows(self) -> tuple[Row, ...]:
-        """Every criterion with what does most of its damage, the rut, what governs, and the verdict."""
+        """Every criterion with what does most of its damage, the rut, what governs, and the assessment."""
         years = self.years(self.governing)
         rows = life_rows(self.dataset, self.criteria, self.traffic)
         if self.stats:

@@ -24,7 +24,7 @@ _STRAINS = ("largest_extension", "largest_in_plane_extension", "largest_vertical
 
 @dataclass(frozen=True, eq=False)
 class PitchResponse(BaseResult, group="pitch_response"):
-    """What a road feels below a tread with blocks at every position of a pitch.
+    """Stress and strain of a road below a tread with blocks at every position of a pitch.
 
     dataset: the largest of strains and stresses over the plane, by name over (position, depth), see `READINGS`.
     """

@@ -359,7 +359,7 @@ class DissipatedEnergy(Quantity):
     remedy = "solve a moving wheel on a viscoelastic road"
 
     def impossible_on(self, road: Pavement) -> str:
-        """An elastic road gives all energy back; one that waits for its temperature says nothing yet."""
+        """An elastic road gives all energy back; a road without a temperature is not decided yet."""
         if any(layer.depends_on_temperature for layer in road.layers) or road.is_viscoelastic:
             return ""
         return "the road is elastic and gives all energy back; give a layer a viscoelastic material"

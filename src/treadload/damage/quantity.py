@@ -1,8 +1,8 @@
 """What is read of stress and strain: a number with a name, a unit, a place in the road, and the crack that it opens.
 
-A law says how many passes a reading of a quantity allows, and a criterion reads it at a place of a road. Ours stand
-in `damage.quantities`; another package declares an entry point of the group `treadload.quantities`, or registers its
-own:
+A law gives the load repetitions that a reading of a quantity allows, and a criterion reads it at a place of a road.
+Ours stand in `damage.quantities`; another package declares an entry point of the group `treadload.quantities`, or
+registers its own:
 
     @QUANTITIES.register("largest_shear")
     @dataclass(frozen=True)
@@ -89,11 +89,11 @@ class Quantity(ABC):
     name: the word for it in cases and files. words: in sentences, "reads the ...". unit: SI, "1" of strains. shown:
     the unit in which people read it, "microstrain", "MPa" or "" for the SI unit. source: the law or author that uses
     it. calibrated: what ties its readings to cracks or ruts of roads, and what does not. where: in a road it is read.
-    harm: what a report says where no crack opens. needs: variables of a response; remedy: what to do without them.
+    harm: the words of a report where no crack opens. needs: variables of a response; remedy: what to do without them.
     bounded: False if it has no bound under the edge of a rib, so that a mean over a
     length of road is read near the surface. extends: True for an extension, which `assess` can judge; strain: whether
     it is one in space or in the horizontal plane. needs_tension: True if it does harm only where a principal stress
-    is tensile. between_layers: True if it says when the bond of an interface fails.
+    is tensile. between_layers: True if it describes failure of the bond of an interface.
     """
 
     name: str
@@ -224,7 +224,7 @@ class Quantity(ABC):
 
     @property
     def about(self) -> dict[str, object]:
-        """What a file says of it, so that its readings are understood without this program."""
+        """What a file states about it, so that its readings are understood without this program."""
         shown = self.shown or ("" if self.unit == "1" else self.unit)
         return {
             "name": self.name, "words": self.words, "shown": shown, "factor": self.factor, "harm": self.harm,

@@ -1,4 +1,4 @@
-"""Quantities over what a mix bears: octahedral shear over its strength, creep energy over what it can dissipate.
+"""Quantities over the strength of a mix: octahedral shear over its strength, creep energy over what it can dissipate.
 
 Both are 1 where the mix is used up, and need its data: in a case a table, in Python their arguments.
 """

@@ -1,4 +1,4 @@
-"""What a verdict reads of a response: at which depths, over how much road, and where no crack can open."""
+"""What an assessment reads of a response: at which depths, over how much road, and where no crack can open."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _PRINCIPAL = "principal_strain_1", "in_plane_strain_1"
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """A quantity over (depth, y, x) as a verdict sees it. data: stress and strain, see `assess`."""
+    """A quantity over (depth, y, x) as an assessment evaluates it. data: stress and strain, see `assess`."""
 
     data: xr.Dataset
     quantity: Quantity
@@ -109,7 +109,7 @@ def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
 def mean_field(
     response: Source, line: PowerLaw, length: float, solved: Source
 ) -> tuple[xr.Dataset, list[str], Means | None]:
-    """Means over a length, m, at the depths of a response that the law applies to; and what to say of the others.
+    """Means over a length, m, at the depths of a response that the law applies to; and sentences about the others.
 
     solved: the response itself, or that which `under_both` put under more loads. A response that is a mean is taken
     as it is. Returns as well the means anywhere else, None where the road cannot be solved again. Raises InputError

@@ -31,7 +31,7 @@ class Thermal:
 
     expansion: of length, of all mixes, 1/K; 2.5e-5, in the middle of what tests give, 2 to 3.5e-5. expansions: of
     single mixes, by their names. relaxation: name of a published viscoelastic material with a shift that stands for
-    the mixes; left out, each relaxes as its own table over temperature and frequency says, see
+    the mixes; left out, each relaxes by its own table over temperature and frequency, see
     `materials.relaxing.relaxation_of`. Raises InputError.
     """
 
@@ -61,7 +61,7 @@ class Thermal:
         return hash((self.expansion, tuple(sorted(self.expansions.items())), self.relaxation))
 
     def unknown(self, material: object) -> str:
-        """Why nobody can say how a bituminous material relaxes, in words; empty where `of` says it."""
+        """Why the relaxation of a bituminous material is unknown, in words; empty where `of` finds it."""
         if isinstance(material, Thermorheological) or self.relaxation is not None:
             return ""
         if not isinstance(material, Mix):
@@ -72,7 +72,7 @@ class Thermal:
     def of(self, material: object) -> tuple[Thermorheological, float, float]:
         """How a bituminous material relaxes, its expansion, 1/K, and the misfit of its model to its table.
 
-        Raises InputError for a material that does not say how it relaxes.
+        Raises InputError for a material that does not state how it relaxes.
         """
         expansion = self.expansions.get(getattr(material, "name", ""), self.expansion)
         if isinstance(material, Thermorheological):

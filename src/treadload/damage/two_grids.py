@@ -48,7 +48,7 @@ def coarser(response: Source) -> Response:
 
 @contextmanager
 def solving_coarser(cell: float) -> Iterator[None]:
-    """An InputError inside says that it is about the coarser grid. cell: side of the cells asked for, m."""
+    """An InputError inside states that it is about the coarser grid. cell: side of the cells asked for, m."""
     try:
         yield
     except InputError as error:

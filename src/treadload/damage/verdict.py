@@ -1,4 +1,4 @@
-"""The verdict: where a road cracks first, in which direction, and after how many passes."""
+"""The assessment: where a road cracks first, in which direction, and after how many passes."""
 
 from __future__ import annotations
 
@@ -47,12 +47,12 @@ _LARGEST = ("largest_principal_strain", "largest_in_plane_strain")
 
 @dataclass(frozen=True, eq=False)
 class Verdict(BaseResult, group="damage"):
-    """What a fatigue law says of a strain field.
+    """The assessment of a strain field by a fatigue law.
 
     dataset: fields (y, x) extension_strain, allowable_passes, crack_angle, crack_dip, crack_orientation at the worst
     depth; extension_by_depth (depth), the largest reading of each; scalars worst_*, which stand between the points of
     the fields where the reading is largest there; NaN angle and dip where no crack opens. line: the fatigue law.
-    strain: the strain that the verdict reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
+    strain: the strain that the assessment reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
     """
 
     columns: ClassVar[Columns] = Columns("Fatigue and cracks")
@@ -92,7 +92,7 @@ class Verdict(BaseResult, group="damage"):
         return tuple(json.loads(self.dataset.attrs["warnings"]))
 
     def rows(self) -> tuple[Row, ...]:
-        """What is evaluated, both tensile strains, the worst point with its crack, load repetitions, the verdict."""
+        """The evaluated value, both tensile strains, the worst point and its crack, load repetitions, the result."""
         line = self.line
         *before, verdict = rows_of(self.dataset, str(line), self.strain, line.at_a_million)
         return (*before, *self._error_estimate(), row("law_conditions", conditions_of(line)), verdict)
@@ -114,7 +114,7 @@ class Verdict(BaseResult, group="damage"):
 
 
 def rows_of(data: xr.Dataset, law: str, strain_read: str, at_a_million: float) -> tuple[Row, ...]:
-    """Rows of a verdict.
+    """Rows of an assessment.
 
     data: its dataset, or the group of a file. law: in words. strain_read: "principal" or "in-plane". at_a_million:
     strain that the law allows a million times.
@@ -173,7 +173,7 @@ def assess(
 
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
     of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
-    depths closer to each other; the worst of all is the verdict, which says how deep it is. A response that already
+    depths closer to each other; the worst of all is the result, with its depth. A response that already
     is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well, on few
     points and as far as it reaches; deeper down the field is solved further where the largest of the map lies at
     its end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the result; a
@@ -291,7 +291,7 @@ def assess(
 
 
 def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
-    """A verdict on cells of `spacing`, m, that states what it reads on coarser ones."""
+    """An assessment on cells of `spacing`, m, that states what it reads on coarser ones."""
     about = {
         "spacing": spacing,
         "coarse_spacing": COARSER * spacing,
@@ -301,7 +301,7 @@ def with_error(verdict: Verdict, coarse: Verdict, spacing: float) -> Verdict:
 
 
 def under(data: xr.Dataset) -> str:
-    """The contacts that a verdict reads, in words, see `shifted` of `assess`. data: of a `Verdict`."""
+    """The contacts that an assessment reads, in words, see `shifted` of `assess`. data: of a `Verdict`."""
     if data.attrs.get("lattices") == 2:
         return "the mean of two contacts whose grids are offset by half a cell"
     return "one contact"

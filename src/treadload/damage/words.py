@@ -1,4 +1,4 @@
-"""Rows and words of a life: each criterion, what does most of its damage, the rut, the verdict, and cautions."""
+"""Rows and words of a life: each criterion, what does most of its damage, the rut, the assessment, and cautions."""
 
 from __future__ import annotations
 
@@ -203,7 +203,7 @@ def by_whom(data: xr.Dataset) -> str:
 def which_way(data: xr.Dataset, harm: str) -> str:
     """Orientation that does most of a criterion's damage, with the angle of the first trace.
 
-    harm: what to say where no crack opens.
+    harm: the words where no crack opens.
     """
     if "orientation_damage" not in data:
         return "–"

@@ -141,7 +141,7 @@ def compare(
     right, which cells do not blur, and the largest readings of the sensor.
 
     result: a contact, a `GridLoad`, or what has one, such as the result of a case or of `open_results`. footprint: a
-    `Footprint`, a `GridLoad`, or the path of a file that `read_footprint` reads without being told more.
+    `Footprint`, a `GridLoad`, or the path of a file that `read_footprint` reads without further options.
     registration: "full" shifts, turns and mirrors; "shift" shifts and turns a little, for a print whose sides are
     known; "none" takes the coordinates as they are; or one of another comparison. Pins have axes of their own and are
     shifted only. ribs: edges across the tread, m; None: found from the grooves of the computed contact.

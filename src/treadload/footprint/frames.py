@@ -12,10 +12,10 @@ class Frames:
     """Maps of a sensor in the order of its file: rows down the page, columns to the right.
 
     values: (frames, rows, columns) in the unit of the file, NaN where there is no sensel. row_spacing,
-    column_spacing: between rows and between columns, m; None if the file does not tell. law: (scale, exponent):
-    pressure, Pa, is scale times a value to the power of the exponent; None if nothing tells. calibrated: False for
-    counts of a sensor, whose law somebody may know better. saturation, threshold: in the unit of the file; None if
-    it does not tell. traction_x, traction_y: of the one frame, Pa. x0, y0: of the first cell, where the file has
+    column_spacing: between rows and between columns, m; None if the file does not state. law: (scale, exponent):
+    pressure, Pa, is scale times a value to the power of the exponent; None if nothing states it. calibrated: False
+    for counts of a sensor, whose law somebody may know better. saturation, threshold: in the unit of the file; None
+    if it does not state. traction_x, traction_y: of the one frame, Pa. x0, y0: of the first cell, where the file has
     coordinates of its own, m. pin: sides of the face of a pin along x and y, m; None of sensels that fill their cell.
     numbers: of the frames, as the file counts them. source: what was read and how, in words. warnings: sentences for
     the user.

@@ -211,7 +211,7 @@ class Measured:
     def loaded(self, folder: str | os.PathLike[str] = ".") -> Measured:
         """The same with its footprint read and its load known. folder: that paths start from.
 
-        Raises InputError for a footprint that cannot be read, or that carries another load than its row says.
+        Raises InputError for a footprint that cannot be read, or that carries another load than its row states.
         """
         pins = None if self.pins is None else _with_shear(_recorded("pins", self.pins, folder))
         if self.footprint is None:

@@ -48,7 +48,7 @@ def sample_pins(
 def write_pins(footprint: Footprint, path: str | os.PathLike[str], *, comment: str = "") -> None:
     """Write a pin table that `read_footprint` reads: positions in mm, stress in kPa.
 
-    footprint: of pins. comment: lines that say what it is, above the declared layout. Missing readings are left
+    footprint: of pins. comment: lines that state what it is, above the declared layout. Missing readings are left
     empty. Raises InputError for a footprint without pins.
     """
     if footprint.pin is None:

@@ -1,4 +1,4 @@
-"""Footprints from files: recognised by their content, calibrated, turned into the axes of travel, doubted."""
+"""Footprints from files: recognised by their content, calibrated, turned into the axes of travel, with caveats."""
 
 from __future__ import annotations
 
@@ -63,13 +63,13 @@ def read_footprint(
     path: of the file. format: "tekscan", "text", "pins", "netcdf", "picture" or another package's, where the content
     misleads.
     units: of pressure, "kPa", "kgf/cm2"; or {"pressure": "kPa", "x": "mm"}; needed where the file names none.
-    spacing: of the cells where the file does not tell, m or a text with a unit, or (between columns, between rows).
-    frame: of several, the one that carries most ("peak"), their mean, or its number in the file.
+    spacing: of the cells where the file does not state it, m or a text with a unit, or (between columns, between
+    rows). frame: of several, the one that carries most ("peak"), their mean, or its number in the file.
     travel: where the wheel goes on the page, rows counted downwards. seen_from: the side of the sensor that the page
     shows; from below, left and right change places. A table has axes of its own, x travel, y right.
     calibration: pressure of one count, Pa or a text. load: known load, N or a text, to which everything is scaled.
     threshold: pressures below it are none. saturation: what a sensel reads at most. Both Pa or a text, before load=
-    scales them; left out, what the file tells. dead: sensels that read nothing amid loaded ones stay empty ("leave")
+    scales them; left out, what the file states. dead: sensels that read nothing amid loaded ones stay empty ("leave")
     or take the mean of their neighbours ("fill"); either way they are named.
     shear_on: the body that recorded shear acts on.
     options: of the format: decimal= of text; pin=, speed= of pins; colours=, scale=, bar=, crop=, steps=,
@@ -191,7 +191,7 @@ def _format_of(path: Path, name: str | None) -> str:
 def _frames(
     path: Path, name: str, common: Mapping[str, object], options: Mapping[str, object]
 ) -> tuple[Frames, bool]:
-    """What the reader of a format makes of the file, and whether it was told the units."""
+    """What the reader of a format makes of the file, and whether the units were given."""
     entry = FOOTPRINTS.find(name)
     takes = list(inspect.signature(entry.target).parameters)[1:]
     extra = [name for name in takes if name not in _COMMON]

@@ -110,7 +110,7 @@ def through(load: GridLoad, sensor: Footprint, angle: float = 0.0) -> Array:
 
 
 def cut_off(pressure: Array, threshold: float, saturation: float) -> Array:
-    """Pressure as a sensor tells it: none below its threshold, no more than its saturation."""
+    """Pressure as a sensor measures it: none below its threshold, no more than its saturation."""
     clipped: Array = np.where(pressure < threshold, 0.0, np.minimum(pressure, saturation))
     return clipped
 

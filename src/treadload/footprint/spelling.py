@@ -34,7 +34,7 @@ KGF_CM2 = 98066.5
 
 
 def is_counts(unit: str) -> bool:
-    """True if a unit says that nothing was calibrated."""
+    """True if a unit states that nothing was calibrated."""
     return unit.strip().upper() in _RAW
 
 

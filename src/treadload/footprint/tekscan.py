@@ -66,7 +66,7 @@ def read(path: Path, text: str) -> Frames:
 
 @dataclass(frozen=True)
 class _Frame:
-    """Rows of a frame with the numbers of their lines; what its own line says of the sum."""
+    """Rows of a frame with the numbers of their lines; what its own line states about the sum."""
 
     number: int
     line: int
@@ -83,7 +83,7 @@ class _Header:
     keys: Mapping[str, tuple[int, str]]
 
     def text(self, key: str) -> str | None:
-        """What a key says, None if it is not there or empty."""
+        """What a key states, None if it is not there or empty."""
         return self.keys[key][1] if key in self.keys and self.keys[key][1] else None
 
     def fault(self, key: str, why: str) -> InputError:
@@ -277,7 +277,7 @@ def _check_area(header: _Header, rows: float | None, columns: float | None) -> N
 
 
 def _law(header: _Header) -> tuple[float, float] | None:
-    """Scale, Pa, and exponent of pressure = scale * raw ** exponent, where the header tells them and their unit."""
+    """Scale, Pa, and exponent of pressure = scale * raw ** exponent, where the header states them and their unit."""
     scale, exponent = (header.number(key) for key in _LAW_KEYS)
     full = header.text("SATURATION_PRESSURE")
     if scale is None or exponent is None or full is None:

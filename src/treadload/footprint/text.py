@@ -1,4 +1,4 @@
-"""Tables of points and plain matrices: read as recorded loads are, but with every unit said."""
+"""Tables of points and plain matrices: read as recorded loads are, but with every unit stated."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def read(
 
     spacing: of a matrix, m or a text, or (dx, dy) of columns and rows. units: {"pressure": "kPa"}, for what the file
     names no unit of. noise: as `measured.read_csv` takes it. counts: a matrix may have no unit, its values are to be
-    calibrated. Raises InputError for a unit that nothing tells, and as `measured.read_csv`.
+    calibrated. Raises InputError for a unit that is not stated, and as `measured.read_csv`.
     """
     units_by_name = dict(units or {})
     for name in _STRESSES:

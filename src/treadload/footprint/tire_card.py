@@ -86,7 +86,7 @@ def tire_card(
     """Deflection, rolling radius, footprint and stiffnesses of a freely rolling tire.
 
     loads: of the wheel, N, distinct, > 0. pressures: of inflation, Pa; left out, the tire's own. A tire of a material
-    of its own does not feel its inflation and takes one pressure at most. stiffness: False leaves out what costs
+    of its own does not depend on its inflation and takes one pressure at most. stiffness: False leaves out what costs
     most, slip and lateral stiffnesses. spacing, tolerance, progress: as in `solve_contact`.
     Slip stiffnesses are slopes at free rolling under friction of 1, by central differences over ±0.001 of creepage.
     The lateral stiffness is that of the standing tire under 2 % of its load; the relaxation length is the cornering

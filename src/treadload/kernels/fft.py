@@ -68,7 +68,7 @@ def device() -> ModuleType:
 
 @contextmanager
 def on(library: ModuleType) -> Iterator[None]:
-    """Loops inside run on the arrays of a library that follows the standard, whatever TREADLOAD_DEVICE says."""
+    """Loops inside run on the arrays of a library that follows the standard, whatever TREADLOAD_DEVICE is."""
     token = _chosen.set(library)
     try:
         yield

@@ -29,7 +29,7 @@ def warmth_of(seasons: Sequence[Season], roads: Sequence[Pavement]) -> Array | N
 
     Of seasons of one temperature the mean of the layers' ln E, (road,). Of profiles over depth, and with factors on
     layers, the few combinations of the layers' ln E in which the roads differ, (road, k), the widest from 0 to 1.
-    None where these do not tell the roads apart, or layers have temperatures of their own.
+    None where these do not distinguish the roads, or layers have temperatures of their own.
     """
     if any(isinstance(season.temperature, tuple) for season in seasons):
         return None

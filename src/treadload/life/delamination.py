@@ -44,7 +44,7 @@ def solve_interfaces(
     """Shear, pressure and sliding at every interface of a road under loads.
 
     Arguments as in `solve_response`, which is asked on both sides where a bond can slide. Returns the dataset of
-    `interface_fields`, whose attribute `warnings` (JSON) holds what the response says. Raises InputError.
+    `interface_fields`, whose attribute `warnings` (JSON) holds those of the response. Raises InputError.
     """
     depths = road.interfaces[: len(road.layers) - 1]
     if not len(depths):
@@ -64,8 +64,8 @@ class BondComparison(BaseResult, group="bond_comparison"):
     """The life of a road bonded, debonded, and bonded until the bond fails.
 
     dataset: largest_reading, life_passes, life_years over (state, criterion), states "bonded", "parted" and
-    "bonded, then parted"; parting_passes, parting_years. What is left of the bond bears by friction or a spring: the
-    failed bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
+    "bonded, then parted"; parting_passes, parting_years. What is left of the bond acts by friction or as a spring:
+    the failed bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
     fails, counted from the surface. bond: what is left of it. criterion: name of the bond that fails first.
     """
 
@@ -102,7 +102,7 @@ class BondComparison(BaseResult, group="bond_comparison"):
         return f"bond of {interface_in_words(self.interface, self.dataset.attrs['between'])}, then {self.bond}"
 
     def rows(self) -> tuple[Row, ...]:
-        """Largest values and service lives by criterion in the three states, when the bond fails, and the verdict."""
+        """Largest values and service lives by criterion in the three states, failure of the bond, the assessment."""
         data, rows = self.dataset, []
         for criterion in self.bonded.criteria:
             for state in (BEFORE, AFTER, PARTING):

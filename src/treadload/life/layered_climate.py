@@ -22,7 +22,7 @@ from treadload.pavement.sublayers import middle_temperatures
 
 
 def climate_fields(road: Pavement, climate: Climate) -> xr.Dataset:
-    """Fields of a life, see `Life`, that tell temperatures and moduli over depth; what a climate lacks is left out.
+    """Fields of a life, see `Life`, with temperatures and moduli over depth; what a climate lacks is left out.
 
     day_temperature (month, hour, profile_depth), below a weather; with daily thermal stress day_tension (month,
     profile_depth). sublayer_temperature and sublayer_modulus (season,

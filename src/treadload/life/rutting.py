@@ -116,7 +116,7 @@ def _over_the_climate(
     """Largest vertical compression (class, road, depth, y) on all roads of a climate.
 
     parts: depths and thicknesses, m. Under the heaviest class the road that is furthest from those solved is solved
-    next, until what the others said of it was right three times in a row: the sum of what is wrong over depth within
+    next, until the others predicted it rightly three times in a row: the sum of what is wrong over depth within
     the tolerance of the largest sum of all. The other classes are solved on the same roads.
     """
     depths, thick = parts

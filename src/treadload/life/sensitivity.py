@@ -168,7 +168,7 @@ def life_sensitivity(
 
 
 def _of_the_rut(life: Life) -> list[str]:
-    """A sentence where the rut ends the road first: what its curve over the years says, and what is not solved."""
+    """A sentence where the rut ends the road first: what its curve over the years shows, and what is not solved."""
     if life.governing != RUT or not math.isfinite(life.rut_years):
         return []
     data, at = life.dataset, life.rut_years

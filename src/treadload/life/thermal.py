@@ -43,8 +43,8 @@ def daily_cycles(
     road: whose materials wait for their temperature. traffic: its design life, for the utilisation. The mix is held
     in both horizontal directions: σ = -α/(1 - ν) ∫ E(ξ - ξ') dT through its relaxation, in the steady state of equal
     days, with the temperatures at the middle of what the criterion reads. Criteria of unbound and cement-bound
-    layers and of bonds, and those whose law was fitted to roads, have none; nor have those of a mix that does not say
-    how it relaxes, of which a warning speaks.
+    layers and of bonds, and those whose law was fitted to roads, have none; nor have those of a mix that does not
+    state how it relaxes, of which a warning speaks.
     """
     thermal, days = climate.thermal, climate.days
     if thermal is None or days is None:

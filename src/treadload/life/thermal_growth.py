@@ -68,7 +68,7 @@ def daily_intensity(
     the crack, its tip at lengths (k,), m. ends: between which it runs. The restrained stress of
     `life.thermal.daily_stress` is that of the uncracked road; the same in all horizontal directions, it opens a
     crack of any trace and shears one that leans. What is not bituminous has none, nor has a material
-    that does not say how it relaxes.
+    that does not state how it relaxes.
     """
     thermal, days = climate.thermal, climate.days
     if thermal is None or days is None:

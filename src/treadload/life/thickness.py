@@ -88,7 +88,7 @@ class ThicknessDesign(BaseResult, group="design"):
         return f"{self.layer} for {float(self.dataset['asked_years']):g} years {risk}"
 
     def rows(self) -> tuple[Row, ...]:
-        """The thickness, the service life on both sides of it, what governs, and the verdict."""
+        """The thickness, the service life on both sides of it, what governs, and the assessment."""
         data = self.dataset
         exact = float(data["exact_thickness"])
         lowest = exact <= float(data.attrs["lower_bound"]) * (1 + 1e-9)

@@ -139,7 +139,7 @@ class Aged:
     def at(self, temperature: float, *, extrapolate: bool = False) -> Elastic | Viscoelastic:
         """The old material at a temperature, °C; beyond the data of the young one only on the cold side.
 
-        Raises InputError outside the data of the young one unless told to extrapolate.
+        Raises InputError outside the data of the young one unless asked to extrapolate.
         """
         if not extrapolate:
             self.material.at(temperature)

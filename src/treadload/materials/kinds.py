@@ -50,7 +50,7 @@ class TemperatureDependent(Protocol):
     """A material that is elastic or viscoelastic once its temperature is known."""
 
     def at(self, temperature: float, *, extrapolate: bool = False) -> Elastic | Viscoelastic:
-        """The material at a temperature, °C. Raises InputError outside its data unless told to extrapolate."""
+        """The material at a temperature, °C. Raises InputError outside its data unless asked to extrapolate."""
 
 
 AnyElastic = Elastic | Anisotropic

@@ -165,7 +165,7 @@ class HydraulicMix(Elastic):
 
 @dataclass(frozen=True, kw_only=True)
 class Unbound(Elastic):
-    """Unbound granular material or a platform: elastic, and the vertical strain ε_z = A NE^b that it bears.
+    """Unbound granular material or a platform: elastic, and its allowable vertical strain ε_z = A NE^b.
 
     modulus: Pa. poisson: Poisson's ratio. name: in the catalogue. slope: b. constant: A under medium and heavy
     traffic, plain strain. constant_light: A under light traffic. constant_inverted: A of the granular layer of an

@@ -24,8 +24,8 @@ if TYPE_CHECKING:
 class PublishedMaterial:
     """A viscoelastic material of a paper.
 
-    name: in the catalogue. material: Viscoelastic, or TemperatureDependent where the paper says how times shift.
-    temperature: at which it holds, °C; None where it depends on temperature, or is not said. source: the paper.
+    name: in the catalogue. material: Viscoelastic, or TemperatureDependent where the paper states how times shift.
+    temperature: at which it holds, °C; None where it depends on temperature, or is not stated. source: the paper.
     caveats: what is not certain about it, a sentence each.
     """
 

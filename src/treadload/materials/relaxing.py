@@ -33,7 +33,7 @@ class Relaxation:
 
 
 def silent_on_time(mix: Mix) -> str:
-    """Why the table of a mix says nothing of time, in words; empty where `relaxation_of` finds how it relaxes."""
+    """Why the table of a mix has no relaxation, in words; empty where `relaxation_of` finds one."""
     if len(mix.frequencies) > 1:
         return ""
     return f"mix {mix.name!r} is tabulated at {mix.frequencies[0]:g} Hz only, which does not define how it relaxes"
@@ -45,7 +45,7 @@ def relaxation_of(mix: Mix) -> Relaxation:
 
     Of six numbers by least squares of ln |E*|; the static modulus is 20 MPa. What happens in hours is that of 10 Hz
     at some 30 °C more, so that a table to 40 °C reaches the daily course of temperatures to 10 °C and no further.
-    Raises InputError for a mix tabulated at one frequency, which says nothing of time.
+    Raises InputError for a mix tabulated at one frequency, which states nothing about time.
     """
     silent = silent_on_time(mix)
     if silent:

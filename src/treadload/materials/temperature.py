@@ -286,7 +286,7 @@ class Thermorheological:
     def at(self, temperature: float, *, extrapolate: bool = False) -> Viscoelastic:
         """The material at a temperature, °C: of the same kind, its times multiplied by aT.
 
-        Raises InputError outside the tested temperatures unless told to extrapolate, and outside of the shift's law.
+        Raises InputError outside the tested temperatures unless asked to extrapolate, and outside of the shift's law.
         """
         if self.tested is None:
             temperature = check_celsius(temperature)

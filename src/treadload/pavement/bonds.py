@@ -99,7 +99,7 @@ class HalfBonded(BondLaw):
 @BONDS.register("parted")
 @dataclass(frozen=True)
 class Parted(BondLaw):
-    """A face that has parted: where pressed it bears shear up to friction times the pressure, where pulled it opens.
+    """A debonded interface: in compression it carries shear up to friction times the pressure, in tension it opens.
 
     friction: coefficient μ on the face, in [0, 5]. unit_weight: of the layers above, which presses it together
     everywhere, N/m³, > 0; 24 kN/m³ is asphalt. The load comes once, from rest: a wheel that rolls by leaves the face

@@ -67,7 +67,7 @@ class Structure:
 def find_structure(name: str) -> Structure:
     """A catalogued structure by name, or one written out as layers, see `pavement.notation`.
 
-    Raises InputError that names the nearest known one, and says what is wrong with the layers.
+    Raises InputError that names the nearest known one, and states what is wrong with the layers.
     """
     try:
         return structures[name]

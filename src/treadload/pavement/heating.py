@@ -80,8 +80,8 @@ class RoadTemperatures:
     """Temperatures of a road over time and depth.
 
     start: of the first row, local time. step: hours. depths: (nz,), m, the first at the surface. temperatures:
-    (nt, nz), °C. air: (nt,), °C. method: how they were found, in words. assumed: sentences on what the weather did
-    not say.
+    (nt, nz), °C. air: (nt,), °C. method: how they were found, in words. assumed: sentences on what the weather
+    lacked.
     """
 
     start: datetime

@@ -40,7 +40,7 @@ def bonds(materials: Sequence[RoadMaterial]) -> list[BondLaw]:
     """Bond of each layer to the one below by the French method: half-bonded between two treated with a binder other
     than bitumen, bonded everywhere else.
 
-    The rule is that of the semi-rigid structure of table I.5 of NF P98-086; see the caveat in the catalogue.
+    The rule is that of the semi-rigid structure of table I.5 of NF P98-086; see its caveat in the catalogue.
     """
     pairs = zip(materials, [*materials[1:], None], strict=True)
     return [

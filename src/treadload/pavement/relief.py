@@ -11,7 +11,7 @@ from treadload.kernels.arrays import Array
 class Relief(Protocol):
     """How far a road's surface rises above its plane: a frozen description, taken by `solve_contact(relief=...)`.
 
-    It may also have `finest_wave`, m: the shortest wave in it, by which cells that are too coarse are told.
+    It may also have `finest_wave`, m: the shortest wave in it, which cells that are too coarse are compared with.
     """
 
     def height(self, x: Array, y: Array) -> Array:

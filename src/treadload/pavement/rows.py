@@ -26,7 +26,7 @@ class LayerRow:
     material |E*| at `frequency`, Hz, which is None otherwise. poisson: Poisson's ratio; of an anisotropic material
     both are those under vertical stress. bond: to the layer below, in words; empty below the last. temperature: °C,
     None where it is not known. material: in words. anisotropic: True if the words
-    alone tell all of its moduli, also those over stress, whose `modulus` is that under a usual truck.
+    alone state all of its moduli, also those over stress, whose `modulus` is that under a usual truck.
     """
 
     name: str

@@ -215,7 +215,8 @@ class Pavement:
 
     @property
     def parted(self) -> int | None:
-        """Number of the interface, 0 below the top layer, that has parted and bears friction; None if there is none.
+        """Number of the interface, 0 below the top layer, that has debonded and carries friction; None if there is
+        none.
 
         Raises InputError for several.
         """
@@ -304,7 +305,7 @@ def _at(layer: Layer, temperature: float | None, extrapolate: bool) -> Layer:
 
 @contextmanager
 def _naming(layer: Layer) -> Iterator[None]:
-    """Say of which layer an InputError speaks."""
+    """Name the layer in an InputError."""
     try:
         yield
     except InputError as error:

@@ -1,4 +1,4 @@
-"""Where a road would crack first, and by whom: the places of all criteria, and how much of each is used."""
+"""Where a road would crack first, by which criterion: the places of all criteria, and how much of each is used."""
 
 from __future__ import annotations
 

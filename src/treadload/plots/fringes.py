@@ -1,4 +1,4 @@
-"""A measurement with fringes, as the camera's pixels tell it."""
+"""A measurement with fringes, as the camera's pixels show it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The life of a road: years by criterion, damage across the wheel path, who does it, what it depends on."""
+"""The life of a road: years by criterion, damage across the wheel path, what causes it, what it depends on."""
 
 from __future__ import annotations
 

@@ -63,7 +63,7 @@ def strain_panels(
     """Largest extension strain in plan above, microstrain; below, the direction of that extension.
 
     response, depth, strain and contact: as for `strain_directions`. Strokes lie along the extension, all of one
-    length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour says
+    length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour shows
     whether they point along travel, across it, obliquely or near-vertically. Returns the figure. Raises InputError as
     `strain_directions`.
     """

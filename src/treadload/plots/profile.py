@@ -40,7 +40,7 @@ _MARKED = 15
 
 
 def _epsilon_6(beside: Mapping[str, xr.Dataset]) -> float | None:
-    """Strain at a million passes of the verdict of a case, where it has one."""
+    """Strain at a million load repetitions by the fatigue line of a case, where it has one."""
     damage = beside.get("damage")
     return float(damage.attrs["epsilon_6"]) if damage is not None and "epsilon_6" in damage.attrs else None
 

@@ -96,7 +96,7 @@ def _sections(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Dr
 
 
 def assessed_plane(response: xr.Dataset | None, damage: xr.Dataset | None) -> xr.Dataset | None:
-    """The map of a response at the depth of a verdict, or at its shallowest depth; None without a response."""
+    """The map of a response at the depth of an assessment, or at its shallowest depth; None without a response."""
     if response is None:
         return None
     depths = np.atleast_1d(response["depth"].to_numpy())
@@ -171,7 +171,7 @@ def draw_strain(ax: Axes, data: xr.Dataset, strain: Strain, scale: Limits, outli
 
 
 def strain_in_numbers(data: xr.Dataset, strain: Strain, scale: Limits) -> str:
-    """Peak of a strain map, which is that of a point, and its place; says when the colours stop below it."""
+    """Peak of a strain map, which is that of a point, and its place; states when the colours stop below it."""
     plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
     row, column = peak_of(values)
     place = f"x = {signed(plan.x[column])}, y = {signed(plan.y[row])} mm"

@@ -42,7 +42,7 @@ def trace_rose(roses: Source | Sequence[Source], labels: Sequence[str] | None = 
     roses: one or several, as `crack_rose` gives them. labels: a name each. Travel points to the right of the
     page and the right of travel down, as in the maps; a trace has no sense, so that half a circle holds all.
     The area of a wedge is the share of its class of angles, on one scale for all roses, so that the circles draw
-    together outwards (equal-area rose, Nemec 1988). Its colour says how the middle of the class runs, and the
+    together outwards (equal-area rose, Nemec 1988). Its colour shows how the middle of the class runs, and the
     tinted sectors are those of the orientations. Horizontal cracks leave no trace; their share is written out.
     Returns the figure.
     Raises InputError for missing variables, or labels that do not match.
@@ -70,7 +70,7 @@ def trace_rose(roses: Source | Sequence[Source], labels: Sequence[str] | None = 
 
 @figure("Verdict", name="rose")
 def rose_of(verdict: Source, *, threshold: float | None = None, classes: int = 18) -> Figure:
-    """The rose of a verdict's cracks, by area of road.
+    """The rose of an assessment's cracks, by area of road.
 
     verdict: with extension_strain, crack_angle and crack_dip (y, x). threshold: strain beyond which road counts;
     a fifth of the largest if left out. classes: of the angles, see `crack_rose`. Returns the figure.

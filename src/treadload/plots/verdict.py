@@ -1,4 +1,4 @@
-"""Figures of a verdict: the fatigue line, passes and cracks in plan."""
+"""Figures of an assessment: the fatigue line, passes and cracks in plan."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ _DRAWN = (1e-30, 1e30)
 
 
 def _drawn(data: xr.Dataset) -> str:
-    """The strain of a verdict in words."""
+    """The strain of an assessment in words."""
     return DRAWN["in-plane" if data.attrs.get("strain") == "in-plane" else "principal"]
 
 
@@ -92,7 +92,7 @@ def fatigue_line(
 
     verdicts: one or several, with worst_strain, worst_passes and the attributes epsilon_6 and slope.
     labels: a name each. design_passes: traffic whose admissible strain is marked. ax: axes to draw into.
-    Returns the figure. Raises InputError if labels and verdicts differ in number or attributes are missing.
+    Returns the figure. Raises InputError if labels and assessments differ in number or attributes are missing.
     """
     cases = [fields_of(v, "worst_strain", "worst_passes") for v in _listed(verdicts)]
     names = list(labels) if labels is not None else [""] * len(cases)
@@ -143,7 +143,7 @@ def fatigue_line(
 def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     """Passes that the fatigue line allows, in plan, on a logarithmic scale.
 
-    verdict: with allowable_passes (y, x). The darkest cells bear the fewest; what bears a million times more
+    verdict: with allowable_passes (y, x). The darkest cells allow the fewest; what allows a million times more
     stays white. ax: axes to draw into. Returns the figure.
     """
     data = fields_of(verdict, "allowable_passes")

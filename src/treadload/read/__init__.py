@@ -1,6 +1,6 @@
 """A table of a case becomes an object by the annotations of what makes it.
 
-A frozen dataclass or a function says by its annotations what a table of TOML holds:
+The annotations of a frozen dataclass or a function describe what a table of TOML holds:
 
     @FRICTION.register("stribeck")
     @dataclass(frozen=True)
@@ -11,7 +11,7 @@ A frozen dataclass or a function says by its annotations what a table of TOML ho
 
 A number carries a unit (`treadload.units`: Length, Modulus, ...; a bare float is a pure number), words are Literal or
 Enum, a Path starts from the folder of the case, tuple[X, ...] is a list, a dataclass a table within, and a type that
-a registry makes (`treadload.registry`) a table told apart by its kind. pydantic reads; the objects do not know it.
+a registry makes (`treadload.registry`) a table distinguished by its kind. pydantic reads; the objects do not know it.
 """
 
 from treadload.read.choice import REFERENCE, As, Choice, choice_named, read, readable, reader, table_of

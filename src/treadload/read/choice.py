@@ -1,4 +1,4 @@
-"""Annotations in terms that pydantic reads, and tables told apart by their kind."""
+"""Annotations in terms that pydantic reads, and tables distinguished by their kind."""
 
 from __future__ import annotations
 
@@ -158,7 +158,7 @@ class As(Mark):
 
 @dataclass(frozen=True)
 class _ByShape(Mark):
-    """An annotation: one of several types, told apart by whether the value is a list, a table or neither."""
+    """An annotation of one of several types, distinguished by whether the value is a list, a table or neither."""
 
     arms: tuple[Any, ...]
 

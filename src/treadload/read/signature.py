@@ -65,7 +65,7 @@ def words_of(target: Any) -> str:
 
 
 def descriptions(text: str, names: Collection[str]) -> dict[str, str]:
-    """What a docstring says of names: of each the words behind "name: " or "name, other: ", up to the next."""
+    """The descriptions of names in a docstring: the words behind "name: " or "name, other: ", up to the next."""
     alternatives = "|".join(map(re.escape, sorted(names, key=len, reverse=True)))
     if not alternatives:
         return {}

@@ -1,4 +1,4 @@
-"""A table of TOML, and what is said of a wrong one."""
+"""A table of TOML, and the messages about a wrong one."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Table(BaseModel):
 
     @classmethod
     def unknown(cls, key: str) -> str:
-        """What to say of a key that the table does not know."""
+        """The message about an unknown key."""
         return nearest(key, cls.known_keys(), "known here:")
 
     @classmethod
@@ -79,7 +79,7 @@ class Table(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _explained(cls, value: Any, handler: Any) -> Any:
-        """Say of an unknown key which one was meant, while the table is known."""
+        """Suggest the key that was meant by an unknown one, while the table is known."""
         value = cls.as_table(value)
         try:
             return handler(value)
@@ -94,7 +94,7 @@ class Table(BaseModel):
 
 
 class Mark:
-    """An annotation that says how a value is read, and what it stands for."""
+    """An annotation that states how a value is read, and what it stands for."""
 
     def options(self) -> tuple[Any, ...]:
         """Types that the value may have; none if the annotation itself is the type."""
@@ -210,7 +210,7 @@ def first_words(kind: Any) -> str:
 
 
 def _plainly(error: Any) -> str:
-    """What is said of a value of another kind than a key has, in the words of TOML."""
+    """The message about a value of the wrong kind, in the words of TOML."""
     if error["type"] in _KINDS:
         return f"must be {_KINDS[error['type']]}, got {error['input']!r}"
     return str(error["msg"])
@@ -237,7 +237,7 @@ def in_words(error: ValidationError) -> str:
 
 
 def by_key(error: BaseException) -> dict[str, str]:
-    """What the reader said, by the path of the key that it is about; "" of the whole. Empty for another error."""
+    """The messages of the reader, by the path of the key; "" of the whole. Empty for another error."""
     cause = error.__cause__
     texts: dict[str, str] = {}
     for detail in cause.errors() if isinstance(cause, ValidationError) else ():

@@ -1,4 +1,4 @@
-"""One HTML file that says what the cases asked, what came out, and how."""
+"""One HTML file with the inputs of the cases, their results, and the methods."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def write_report(cases: Mapping[str, object], path: str | PathLike[str], title: 
 
     cases: name of each case → its tree of results, or whatever `save_results` takes; several results of a kind in
     one tree stand side by side as cases. path: of the file. title: heading; the title of the case if left out. The
-    file needs no other file and no network. A figure that cannot be drawn leaves a sentence that says why. Returns
+    file needs no other file and no network. A figure that cannot be drawn leaves a sentence that states why. Returns
     the path.
     Raises InputError without a case, for a tree that holds no results, or a path that cannot be written; the
     file appears whole or not at all.
@@ -53,9 +53,9 @@ def write_report(cases: Mapping[str, object], path: str | PathLike[str], title: 
 def report(results: object, path: str | PathLike[str], *, title: str = "") -> Path:
     """Write a self-contained HTML file about results.
 
-    results: of any verb: one, a list, or a mapping of names to them; contacts, responses, verdicts, lives, the result
-    of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases of
-    their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
+    results: of any verb: one, a list, or a mapping of names to them; contacts, responses, assessments, lives, the
+    result of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases
+    of their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
     """
     named: Mapping[str, object]
     if isinstance(results, Mapping):

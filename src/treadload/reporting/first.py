@@ -1,4 +1,4 @@
-"""Where a road would crack first, by whom: all criteria of a life side by side, all quantities of a response."""
+"""Where a road would crack first, by which criterion: all criteria of a life, all quantities of a response."""
 
 from __future__ import annotations
 
@@ -30,7 +30,8 @@ CRACKS, FAILS = "Predicted cracking by criterion", "Predicted failure by criteri
 
 @dataclass(frozen=True)
 class FirstPage:
-    """What a report says of it. heading: with the word "crack" only where one opens. sentence: the first of them.
+    """The part of a report about it. heading: with the word "crack" only where one opens. sentence: the first of
+    them.
 
     columns, rows: the table, first to fail first. note: how it is read.
     """

@@ -1,4 +1,4 @@
-"""The life of a road in a report: its verdict in words, its criteria as a table, its figures."""
+"""The life of a road in a report: its assessment in words, its criteria as a table, its figures."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ WORKS = ("axles", "polishing: work of sliding, J/m²", "ravelling: work of teari
 
 @dataclass(frozen=True)
 class LifeReport:
-    """What a report says of one life.
+    """The part of a report about one life.
 
     label: of the case. facts: (term, value). laws: name of a criterion, law, source, caveat, what the end of life is.
     groups: sentences on first cracks and on groups of axles. solved: what was solved for it. first: the criteria,
-    where it would crack first, by whom; None for files without it. works: rows of `WORKS`.
+    where it would crack first, by which criterion; None for files without it. works: rows of `WORKS`.
     """
 
     label: str

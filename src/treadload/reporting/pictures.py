@@ -50,7 +50,7 @@ class Picture:
 
 
 def picture(title: str, caption: str, draw: Callable[[], Figure], wide: bool = False) -> list[Picture]:
-    """The picture; where it cannot be drawn a sentence in its place that says why."""
+    """The picture; where it cannot be drawn a sentence in its place that states why."""
     with warnings.catch_warnings():
         # Of a single row of cells, or a single place, matplotlib finds no extent to draw.
         for message in ("constrained_layout not applied", "Attempting to set identical low and high"):

@@ -205,7 +205,7 @@ class ReportCase:
 
     @property
     def surface(self) -> xr.Dataset | None:
-        """The map of the response at the verdict's depth, or its shallowest depth; None without a response."""
+        """The map of the response at the assessment's depth, or its shallowest depth; None without a response."""
         return assessed_plane(self.group("response"), self.group("damage"))
 
     @property
@@ -239,7 +239,7 @@ class ReportCase:
 
     @property
     def facts(self) -> list[tuple[str, str]]:
-        """What the verdict evaluates and finds, and the largest strains at points, for a card."""
+        """What the assessment evaluates and finds, and the largest strains at points, for a card."""
         rows = [row for row in self.rows("damage") if row.key in _FACTS]
         points = [
             replace(row, label=f"{row.label}, at a point") for key, row in self.strains.items() if key in STRAINS
@@ -260,7 +260,7 @@ class ReportCase:
 
     @property
     def verdict(self) -> str:
-        """The verdict in a sentence; empty without one."""
+        """The assessment in a sentence; empty without one."""
         rows = [*self.rows("life"), *self.rows("damage")]
         rows += [row for extra in self.extras for row in from_json(extra.dataset.attrs.get("rows"))]
         return next((typeset(row) for row in rows if row.key == "verdict"), "")
@@ -276,13 +276,13 @@ def groups_in_columns() -> dict[str, Columns]:
 
 
 def kind_of(name: str, attrs: Mapping[object, object]) -> str:
-    """Kind of the result in a group: as it says, else as it is called."""
+    """Kind of the result in a group: as it is recorded, else by its name."""
     result_name = attrs.get("result")
     return result_name if isinstance(result_name, str) and result_name else name
 
 
 def _classes(tree: xr.DataTree) -> dict[str, str]:
-    """Part of a tree → the class of its result, where the file tells it."""
+    """Part of a tree → the class of its result, where the file states it."""
     questions = read_json(tree[QUESTIONS].attrs.get("questions"), {}) if QUESTIONS in tree.children else {}
     parts = questions.items() if isinstance(questions, dict) else ()
     return {

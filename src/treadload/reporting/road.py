@@ -12,7 +12,7 @@ from treadload.rows import Row
 
 @dataclass(frozen=True)
 class RoadTable:
-    """Layers of a road as text. heading: case and speed, those that need saying. rows: a tuple of cells a layer."""
+    """Layers of a road as text. heading: case and speed, where they are needed. rows: a tuple of cells a layer."""
 
     heading: str
     rows: tuple[tuple[str, ...], ...]

@@ -43,7 +43,7 @@ class Section:
 
 
 def result_table(cases: list[ReportCase]) -> list[Section]:
-    """What came out: forces and contact, strain, verdict; rows that no case can fill are left out."""
+    """What came out: forces and contact, strain, assessment; rows that no case can fill are left out."""
     strains = (
         f"Largest tensile strain at points {cases[0].depth_in_words}: near the edges of ribs it depends on the cells"
     )

@@ -50,5 +50,5 @@ def on_cells(loads: Sequence[SurfaceLoad]) -> list[SurfaceLoad]:
 
 @lru_cache(maxsize=8)
 def _modes(stiffness: bytes) -> Modes:
-    """Of the numbers of a stiffness matrix, kept: one road bears many loads."""
+    """Of the numbers of a stiffness matrix, kept: one road carries many loads."""
     return Modes.of(np.frombuffer(stiffness).reshape(6, 6))

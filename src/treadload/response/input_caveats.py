@@ -40,7 +40,7 @@ def road_caveats(road: Pavement) -> tuple[str, ...]:
 
 
 def _position(number: int, count: int, modulus: float) -> str:
-    """Which row of the table says how thick a layer can be."""
+    """The row of the table with the usual thicknesses of a layer."""
     if count > 1 and number == 0:
         return "thickness of the surface course"
     if number == count - 1:

@@ -92,7 +92,7 @@ class GridLoad:
         pressure: (ny, nx), Pa, rows along y (to the right), columns along x (travel). traction_x, traction_y:
         likewise. spacing: of the cells, m or text with a unit, or (dx, dy). x0, y0: centre of the first cell, m;
         None: the origin lies in the middle. shear_on: the body that the recorded shear acts on; what the tire
-        feels, "tire", changes its sign. InputError for a wrong shape or value.
+        is affected by, "tire", changes its sign. InputError for a wrong shape or value.
         """
         values = real_array(pressure, "pressure")
         if values.ndim != 2 or not values.size:

@@ -62,7 +62,7 @@ class Layout(TypedDict, total=False):
 
 @dataclass(frozen=True)
 class TextLayout:
-    """How a text of numbers is read where it does not say so itself, see `read_csv`."""
+    """How a text of numbers is read where it does not state this itself, see `read_csv`."""
 
     spacing: float | str | tuple[float | str, float | str] | None = None
     x0: float | None = None
@@ -85,7 +85,7 @@ def read_csv(path: str | os.PathLike[str], *, strict: bool = False, **layout: Un
     layout: spacing=, x0=, y0=, units=, missing=, noise= and decimal=. spacing: of the cells, m or text with a unit,
     or (dx, dy); a matrix needs it, a table where its coordinates do not give it. x0, y0: of a matrix, centre of the
     first cell, m; None: the origin lies in the middle. units: column → unit where the header names none, {"pressure":
-    "kPa"}; otherwise SI. missing: what stands where a cell is empty, says NaN or NoData, or is absent: "error",
+    "kPa"}; otherwise SI. missing: what is read where a cell is empty, is NaN or NoData, or is absent: "error",
     "zero", or "keep" for NaN. noise: pressures this far below zero, Pa or text with a unit, are set to zero. decimal:
     "." or ",", where the file can be read in two ways. strict: refuse what names no unit, which is SI otherwise.
     Raises InputError that names the line for what cannot be read.

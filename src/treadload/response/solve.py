@@ -54,7 +54,7 @@ def solve_response(
     x, y: coordinates of the points, m; left out, the loads' own grid serves. One y and many depths make a
     vertical slice. points: instead of x and y, (n, 2), a list of places (x, y), m: lines that cross, or anywhere.
     side: of an interface that a depth falls on, within round-off (1e-9 m), "above" or "below", kept as an attribute
-    of the dataset, which figures read; the coordinate `layer` says for each depth which layer was read. Stress and
+    of the dataset, which figures read; the coordinate `layer` is the layer that was read at each depth. Stress and
     strain of a half-space have no jump there, and the horizontal displacement of layers jumps only where they slide.
     speed: at which the loads travel along +x, m/s, needed where a layer is viscoelastic. The result is then the
     steady state, seen from the loads, without inertia: what a fixed point experiences is a line along x read
@@ -153,7 +153,7 @@ def solve_response(
 
 
 def _drift(displacement: Array, depths: Array, loads: Sequence[object]) -> tuple[str, ...]:
-    """A sentence where displacement (3, nz, my, mx) is NaN: along a net shear force over a face that bears none."""
+    """A sentence where displacement (3, nz, my, mx) is NaN: along a net shear force over a face that carries none."""
     gone: BoolArray = np.isnan(displacement).any(axis=(2, 3))  # type: ignore[assignment]
     if not gone.any():
         return ()

@@ -45,7 +45,7 @@ def bibtex(citations: Iterable[str]) -> str:
 
 
 def citations_of(source: Case | xr.DataTree) -> list[str]:
-    """Citations of the methods that a case will use, or that the tree of a result says it used."""
+    """Citations of the methods that a case will use, or that the tree of a result states it used."""
     if isinstance(source, Case):
         return references(source.cites())
     keys = read_json(source.attrs.get("citations", "[]"), [])

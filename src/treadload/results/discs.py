@@ -26,7 +26,7 @@ _MOST, _ROUNDS = 50, 200
 
 @dataclass(frozen=True)
 class EquivalentDiscs(Described):
-    """Discs that stand for a contact. discs: of `UniformDisc`. lost: what they do not say, name → value in SI.
+    """Discs that stand for a contact. discs: of `UniformDisc`. lost: what they do not represent, name → value in SI.
 
     `lost` holds: pressure, the largest of the contact, and peak, that of the discs, Pa; tractive, lateral: shear
     forces on the road that are left out, N; spread_x, spread_y: root mean square of the distance of the load from its

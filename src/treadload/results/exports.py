@@ -255,7 +255,7 @@ def _unit(field: xr.DataArray) -> str:
 
 
 def _about(tree: xr.DataTree) -> Table:
-    """What the tree and its groups say of themselves: title, case, warnings, versions."""
+    """Description of the tree and its groups: title, case, warnings, versions."""
     nodes = [("", tree), *((str(name), node) for name, node in tree.children.items() if name != QUESTIONS)]
     rows = [(group, str(name), str(value)) for group, node in nodes for name, value in node.attrs.items()]
     group, name, value = zip(*rows, strict=True) if rows else ((), (), ())

@@ -37,7 +37,7 @@ def _image(data: xr.DataTree | xr.Dataset) -> bytes:
     """The bytes of a NetCDF-4 file, made in memory.
 
     On a full disk HDF5 ends the process while it closes its file, and so it does in a stream of Python's where memory
-    ends; of its own memory it says in order that there is no more. Raises MemoryError.
+    ends; in memory of its own it raises MemoryError in an orderly way.
     """
     tree = data if isinstance(data, xr.DataTree) else xr.DataTree(data)
     try:
@@ -71,7 +71,7 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     """Results from a file, read into memory, as the objects that were saved.
 
     Parts come by their names, `open_results("x.nc").contact.plot.pressure()`, and go into every verb. What no file
-    holds, the mesh of a scan or a function, says so in a sentence when a verb asks for it.
+    can hold, the mesh of a scan or a function, raises an error that explains this when a verb needs it.
     Raises InputError if the file is not a result of treadload, is broken, or written by a later treadload.
     """
     path = Path(path)

@@ -1,4 +1,4 @@
-"""A dataset from a file becomes an object only where it holds what its class says that it reads."""
+"""A dataset from a file becomes an object only where it holds the variables that its class reads."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _WRONG = (TypeError, ValueError, AttributeError, ArithmeticError, LookupError)
 def result_of(kind: type[BaseResult], values: Mapping[str, Any], where: str) -> Any:
     """The result of this class. values: its fields by name. where: the file and the part.
 
-    Raises InputError where a field is not what its annotation says, and as `check_dataset`.
+    Raises InputError where a field is not what its annotation states, and as `check_dataset`.
     """
     hints = _hints(kind)
     for name, value in values.items():
@@ -172,7 +172,7 @@ def _hints(kind: type[Any]) -> Mapping[str, Any]:
 
 
 def _fits(value: Any, hint: Any) -> bool:
-    """True where a value is what an annotation of a field says; of protocols and functions nothing is known."""
+    """True where a value is what an annotation of a field states; of protocols and functions nothing is known."""
     origin, inner = get_origin(hint), get_args(hint)
     if origin in (Union, types.UnionType):
         return any(_fits(value, arm) for arm in inner)

@@ -2,7 +2,8 @@
 
 Descriptions are frozen dataclasses: their fields hold everything. A file is read without trust: it can name classes
 of this package, and those that an installed package declares as entry points, and every number passes the checks of
-its class. What a file cannot hold, a scan's mesh or a function, comes back as something that says so when it is used.
+its class. What a file cannot hold, a scan's mesh or a function, comes back as an object that raises an error when it
+is used.
 """
 
 from __future__ import annotations

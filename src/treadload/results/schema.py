@@ -1,7 +1,7 @@
 """What a tree of results must be like, so that whatever reads it can rely on it: checked in one place.
 
 Groups may be absent, and most variables too. What is there has the units that `variables.py` and the dimensions and
-kind of numbers that its class (`composing.Holds`) says.
+kind of numbers that its class (`composing.Holds`) states.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ _ANY, _AT = "...", "@"
 
 
 def check_tree(tree: xr.DataTree, name: str) -> None:
-    """Raise InputError that says what in a tree of results cannot be read. name: of the file or case."""
+    """Raise InputError that states what in a tree of results cannot be read. name: of the file or case."""
     _check_root(tree.attrs, name)
     for group, node in tree.children.items():
         where = f"{name}: the group /{group}"
@@ -47,7 +47,7 @@ def check_tree(tree: xr.DataTree, name: str) -> None:
 
 
 def _class_of(kind: str) -> type[BaseResult] | None:
-    """The class that says how a group of this kind is checked before it is read; None without one."""
+    """The class by which a group of this kind is checked before it is read; None without one."""
     classes = result_classes()
     group = classes[name].group if (name := class_of_group(kind)) else kind
     return next((kind for kind in classes.values() if kind.group == group and kind.holds.tree), None)
@@ -74,7 +74,7 @@ def _check_root(attrs: Mapping[Any, Any], name: str) -> None:
 
 
 def check_fields(holds: Holds, data: xr.Dataset, where: str) -> None:
-    """Raise InputError where what a dataset has is not as its class says. where: the file and the group."""
+    """Raise InputError where what a dataset has is not as its class states. where: the file and the group."""
     if holds.tree:
         for name in _LENGTHS:
             if name in data.dims:
@@ -101,7 +101,7 @@ def check_fields(holds: Holds, data: xr.Dataset, where: str) -> None:
 
 
 def each(named: Mapping[str, str]) -> Iterator[tuple[str, str]]:
-    """Names and what is said of them, one by one, of names with blanks between."""
+    """Pairs of a name and its description, from names with blanks between."""
     return ((name, words) for names, words in named.items() for name in names.split())
 
 

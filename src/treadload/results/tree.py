@@ -58,7 +58,7 @@ def to_tree(
 ) -> xr.DataTree:
     """One tree of named results, ready to be saved, reported, or opened again.
 
-    parts: a result or several, of any verb: contacts, responses, verdicts, lives, curves, comparisons; a GridLoad
+    parts: a result or several, of any verb: contacts, responses, assessments, lives, curves, comparisons; a GridLoad
     that was recorded in place of a contact; a dataset of fields. A mapping names them, {"free": r1, "braking": r2};
     else each takes the name of its kind: /contact, /response, /damage, /bonds, /life, /sensitivity, /transient, …,
     numbered where there are several, /response, /response_2. A response on a single row of y becomes /slice_along, on
@@ -186,7 +186,7 @@ def _free(name: str, taken: Mapping[str, Any]) -> str:
 
 
 def _about(part: BaseResult, owner: str) -> dict[str, str]:
-    """What a group says of itself in words, for people and for the report."""
+    """Description of a group in words, for people and for the report."""
     kind = part.group_name
     about = {"result": kind, "stats": json.dumps(dict(part.stats), default=_plain)}
     if owner:

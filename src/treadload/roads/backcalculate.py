@@ -50,13 +50,13 @@ def backcalculate(
     the top of a rigid layer below the surface, m or text, 10 m if left out; two depths to seek it between them; None
     for the half-space of the structure. A rigid base of the structure stays. error: of the sensors, one standard
     deviation: "2 %", "2 µm" ("10 µm/m" of slopes), or both; left out, 2 % and 0.5 µm (10 µm/m) weigh the sensors and
-    the misfit of each basin tells the size. reference_temperature: of mixes, °C. jobs: processes. state: folder that
-    keeps what is solved, so that a run goes on where it stopped. progress: called with (done, total, what).
+    the misfit of each basin determines the size. reference_temperature: of mixes, °C. jobs: processes. state: folder
+    that keeps what is solved, so that a run goes on where it stopped. progress: called with (done, total, what).
 
     A stress-dependent layer of a structure under a falling weight keeps its law, and the size of it is sought, stated
     as the modulus at the nominal stress (θ = 150 kPa, q = 75 kPa): the drops of a station, section and thicknesses
-    are fitted together, each with the moduli that its load settles. Loads of two heights or more tell a law from a
-    linear layer. A falling weight is static, wheels in steady motion: inertia is not modelled.
+    are fitted together, each with the moduli that its load settles. Loads of two heights or more distinguish a law
+    from a linear layer. A falling weight is static, wheels in steady motion: inertia is not modelled.
     Returns moduli with error bars, correlation, misfit, and in words what is flagged, refused and undecided. Raises
     InputError for a question without an answer. Source: as `kernels.layers.settlement` and `kernels.layers.tracks`,
     states of stress as `response.settle`; Marquardt (1963) for the search.

@@ -1,4 +1,4 @@
-"""Deflection basins of a falling weight: load, plate, sensors, and what a file says of every drop."""
+"""Deflection basins of a falling weight: load, plate, sensors, and what a file records about every drop."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class Measured(Protocol):
 
     @property
     def conditions(self) -> tuple[object, ...]:
-        """What else it depends on, each with a repr that says all of it."""
+        """What else it depends on, each with a complete repr."""
 
     def __len__(self) -> int: ...
 

@@ -146,7 +146,7 @@ class TableColumns:
         return {match["layer"]: place for place, match in layers.items() if match}
 
     def offset(self, place: int) -> float | None:
-        """Of a sensor, m, as its name tells it; None where it does not."""
+        """Of a sensor, m, from its name; None where the name does not contain it."""
         match = _DEFLECTION.fullmatch(self._bare[place])
         return None if match is None else 1e-3 * float(match["offset"])
 

@@ -61,7 +61,7 @@ class MovingModel:
 
     @cached_property
     def coarse(self) -> MovingModel:
-        """The same with the size of every modulus at the wave that is felt most, and no memory: for starts."""
+        """The same with the size of every modulus at the dominant wave, and no memory: for starts."""
         if not self.has_memory:
             return self
         # A wave as long as the basin, some two metres.

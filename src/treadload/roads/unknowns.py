@@ -18,7 +18,7 @@ from treadload.units import quantity
 DEPTH = "stiff layer"
 """Name of the depth of the stiff layer among the unknowns."""
 STIFF_LAYER = 10.0
-"""Depth of the stiff layer below the surface, m, where nothing is said: the middle of 7.5 to 12.5 m, where routine
+"""Depth of the stiff layer below the surface, m, where no other is given: the middle of 7.5 to 12.5 m, where routine
 evaluations put it. On a half-space the outer sensors would need a subgrade that stiffens with depth."""
 REFERENCE_FREQUENCY = 10.0
 """At which the modulus of a viscoelastic layer is stated as |E*|, Hz."""

@@ -43,7 +43,7 @@ class AggregatesStep(Step, name="aggregates"):
     material: of the stones. mortar: what is between them; left out, the top layer is mortar. fraction: of the
     window, in (0, 1). radii: of the stones. shares: of the stones' volume by radius; left out, all the same. window:
     where. spacing: of its cells. seed, gap, cover: of the drawing, see `Aggregates.random`. bond_strength: tension
-    that mortar on stone bears. borders: "steps" of whole cells, or "shares" of cut ones. See
+    that the bond of mortar on stone withstands. borders: "steps" of whole cells, or "shares" of cut ones. See
     `treadload.response.compute_heterogeneous`.
     """
 

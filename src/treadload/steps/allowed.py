@@ -40,7 +40,8 @@ class Allowed:
     """What a criterion allows of the passes of a load.
 
     name: of its law, as a case names it. layer: its name. place: in it, "top", "bottom" or "" of a depth that a
-    verdict found. depth: m. law. reading: the largest that a passage does, SI, 0 where nothing does harm; at x, y, m.
+    assessment found. depth: m. law. reading: the largest that a passage does, SI, 0 where nothing does harm; at x,
+    y, m.
     """
 
     name: str
@@ -115,7 +116,7 @@ def criteria_of_layers(case: Case) -> tuple[list[Criterion], list[str]]:
 
 
 def passes_allowed(load: Loaded, verdict: Verdict | None = None) -> PassesAllowed:
-    """Passes of the load of a case by criterion: its own verdict, then the laws that the road's layers have.
+    """Passes of the load of a case by criterion: its own assessment, then the laws that the road's layers have.
 
     load: a road under its wheels, at its temperature. verdict: of the case, see `judge`; left out, none.
     A reading is the largest of one passage, anywhere across the wheels, or further as far as the basin reaches where

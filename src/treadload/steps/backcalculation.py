@@ -19,7 +19,7 @@ _Number = Number | str
 LAYOUT = As(BasinLayout)
 MOVING_LAYOUT = As(MovingLayout)
 HALF_SPACE = "none"
-"""What `stiff_layer` says of a structure that ends in a half-space: TOML has no None."""
+"""The value of `stiff_layer` for a structure that ends in a half-space: TOML has no None."""
 
 
 class Setting(TypedDict):

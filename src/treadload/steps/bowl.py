@@ -26,7 +26,7 @@ class BowlStep(Step, name="bowl"):
 
     @classmethod
     def wanted(cls, case: Description) -> BowlStep | None:
-        """The step on layers; the deflection of a half-space has no end."""
+        """The step on layers; the deflection of a half-space is unbounded."""
         return None if case.pavement is None or case.road().is_homogeneous else cls()
 
     def solve(self, scene: Scene) -> Response:

@@ -73,7 +73,7 @@ class CrossingStep(Step, name="crossing"):
         return relief
 
     def rolling(self, wheel: Rolling) -> Rolling:
-        """What the wheel does on its way: all that the case says, or its load alone."""
+        """What the wheel does on its way: all that the case states, or its load alone."""
         return wheel if self.sliding else Rolling(normal_load=wheel.normal_load, friction=0.0, speed=wheel.speed)
 
     def check(self, case: Description) -> None:

@@ -83,7 +83,7 @@ class Loaded:
     """A road under the wheels of a case, ready to be read anywhere; stress-dependent layers have settled moduli.
 
     contact: None if a footprint was recorded. wheel: the load of one wheel; wheels: all of them in their places.
-    enveloped: what the layers feel of the contact, where the case spreads the pressure on peaks. touch: solves
+    enveloped: the contact that loads the layers, where the case spreads the pressure on peaks. touch: solves
     further contacts of the case, as `contact_of` does.
     """
 
@@ -104,7 +104,7 @@ class Loaded:
 
     @cached_property
     def shifted_wheels(self) -> list[GridLoad] | None:
-        """All wheels on cells half a cell beside, where a verdict reads the mean of both lattices."""
+        """All wheels on a grid shifted by half a cell, where an assessment takes the mean of both grids."""
         table, contact = self.case.damage, self.contact
         if table is None or table.lattices == 1 or table.depth is not None:
             return None
@@ -183,7 +183,7 @@ def load_case(case: Case, tell: Progress, *, contact: Contact | None = None, tou
 
 
 def judge(load: Loaded, response: Response) -> Verdict:
-    """The verdict that the case of a loaded road asks for.
+    """The assessment that the case of a loaded road asks for.
 
     response: at its depths; or of means, under `load.read_wheels`.
     """
@@ -199,7 +199,7 @@ def judge(load: Loaded, response: Response) -> Verdict:
 
 
 def on_two_grids(load: Loaded, verdict: Verdict) -> Verdict:
-    """The verdict with what it is on cells twice as large."""
+    """The assessment with what it is on cells twice as large."""
     case, tell = load.case, load.tell
     check_two_grids(None if load.contact is None else load.contact.tire)
     tell("error estimate")
@@ -211,7 +211,7 @@ def on_two_grids(load: Loaded, verdict: Verdict) -> Verdict:
 
 
 def _enveloped(case: Case, contact: Contact) -> Enveloped:
-    """What the layers feel of a contact, where the case spreads the pressure on peaks."""
+    """The contact that loads the layers, where the case spreads the pressure on peaks."""
     assert case.texture is not None
     assert case.texture.enveloping is not None
     return envelop(contact, case.texture.enveloping)

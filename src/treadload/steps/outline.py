@@ -28,7 +28,7 @@ _SLICE = {"half-space": 0.15, "layers": 0.35, "viscoelastic": 6.0}
 
 
 class Outline:
-    """What the steps of a case say of their work.
+    """The work of the steps of a case, in words.
 
     lines: of the plan. warnings: sentences. contacts: how many are solved, 1 the case's own. mapped, sliced: points
     of maps and slices. estimate: of the time, in words, where it does not follow from these.

@@ -19,12 +19,12 @@ from treadload.units import Kelvin, Length, Number, Share
 class ReliabilityStep(Step, name="reliability"):
     """`[reliability]` of a design case: deviations of what its life depends on, see `damage.scatter.Scatter`.
 
-    risks: probabilities of failure, in (0, 1), whose years are told. fatigue: SN, of log₁₀ of the passes that a law
-    allows, of all laws or a table by the names of criteria; left out, that of each law, else of its mix. thickness:
-    Sh, of all asphalt, or a table by the names of layers; left out, by the rule of the French method. moduli:
-    coefficient of variation of every layer's modulus, or a table by the names of layers. traffic: coefficient of
-    variation of the passes. temperature: of the year. modulus_correlation: of the logarithms of two moduli, a list
-    of [layer, layer, correlation]. coverage: share of a criterion's damage that is solved again
+    risks: probabilities of failure, in (0, 1), whose years are reported. fatigue: SN, of log₁₀ of the passes that a
+    law allows, of all laws or a table by the names of criteria; left out, that of each law, else of its mix.
+    thickness: Sh, of all asphalt, or a table by the names of layers; left out, by the rule of the French method.
+    moduli: coefficient of variation of every layer's modulus, or a table by the names of layers. traffic:
+    coefficient of variation of the passes. temperature: of the year. modulus_correlation: of the logarithms of two
+    moduli, a list of [layer, layer, correlation]. coverage: share of a criterion's damage that is solved again
     with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of
     the Monte Carlo. seed: of the draws.
     """

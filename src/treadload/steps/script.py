@@ -103,9 +103,10 @@ class Script:
 def case_as_python(case: Case) -> str:
     """Python that computes what a case asks for, with the verbs of the package: the same numbers to the last digit.
 
-    A wheel on a road becomes Tire, Pavement, Rolling and the verbs from contact to verdict, and leaves the results in
-    `contact`, `response` and `verdict`; what else a case can ask for becomes `Case.from_dict` and `tl.run`, with the
-    results in `result`. Relative paths of files start from the folder of the case. Returns the text of a script.
+    A wheel on a road becomes Tire, Pavement, Rolling and the functions from contact to assessment, and leaves the
+    results in `contact`, `response` and `verdict`; what else a case can ask for becomes `Case.from_dict` and
+    `tl.run`, with the results in `result`. Relative paths of files start from the folder of the case. Returns the
+    text of a script.
     """
     script = Script(case)
     head = [f'"""{_doc(case.title)}"""', ""] if case.title else []

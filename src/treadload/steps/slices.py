@@ -64,7 +64,7 @@ class SlicesStep(Step, name="slices"):
 
 
 def _worst_point(response: Response, verdict: Verdict | None) -> tuple[float, float]:
-    """X and y, m, of the verdict's worst point; without one of the largest extension of the first map."""
+    """X and y, m, of the assessment's worst point; without one of the largest extension of the first map."""
     if verdict is not None and float(verdict.dataset["worst_strain"]) > 0:
         return float(verdict.dataset["worst_x"]), float(verdict.dataset["worst_y"])
     strain = response.dataset.principal_strain_1.isel(depth=0)

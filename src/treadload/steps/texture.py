@@ -35,7 +35,7 @@ class TextureStep(Step, name="texture"):
 
     resolved: true to put the texture under the whole tire, which then rolls on its peaks; its points lie no further
     apart than the cells. enveloping: of a resolved texture, the length over which the pressure on peaks is spread
-    before the layers feel it; half the first depth that is read, or less; left out, the layers feel the peaks.
+    before it loads the layers; half the first depth that is read, or less; left out, the peaks load the layers.
     rubber: of the tread, its own; a viscoelastic one is read at the speed over `wave`; of a patch, not of a resolved
     texture, which meets the tire of the case. thickness: of the tread on its belt; left out, deep. wave: by which a
     speed becomes a frequency; left out, the texture's mean one.
@@ -167,7 +167,7 @@ class TextureStep(Step, name="texture"):
 
 
 class EnvelopingStep(Step, name="enveloping"):
-    """What the layers feel of a contact whose pressure on peaks is spread; asked for by `[texture]`."""
+    """The contact that loads the layers, with its pressure on peaks spread; asked for by `[texture]`."""
 
     makes: ClassVar = ("enveloped",)
     has_table: ClassVar = False

@@ -88,7 +88,7 @@ def keep_fields(record: Record, folder: Path) -> None:
 def restore_fields(
     path: Path, design: Design, solved: Sequence[int], numbers: Collection[str], folder: Path
 ) -> dict[int, Path]:
-    """Files of cases whose fields are only in the arrays, which are made anew of files. Returns them by number.
+    """Files of cases whose fields are only in the arrays, which are made again as files. Returns them by number.
 
     solved: numbers of these cases. numbers: names of arrays that are no fields.
     """

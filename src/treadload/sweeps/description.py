@@ -1,4 +1,4 @@
-"""What a store says of its study: case, design, what is kept, version; under a checksum."""
+"""What a store records about its study: case, design, what is kept, version; under a checksum."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STUDY = "study.json"
 
 
 def fingerprint(case: Case, design: Design, question: Question) -> str:
-    """What tells studies apart: case, files that it reads, design, fields, version."""
+    """What identifies a study: case, files that it reads, design, fields, version."""
     table = case.as_tables()
     content = [__version__, table, design.to_json(), [reading.text for reading in question.selectors]]
     digest = hashlib.sha256(json.dumps(content, sort_keys=True, default=str).encode())
@@ -35,7 +35,7 @@ def fingerprint(case: Case, design: Design, question: Question) -> str:
 
 
 def about(case: Case, design: Design, question: Question | None) -> dict[str, object]:
-    """What a study says of itself, as attributes of its dataset."""
+    """Description of a study, as attributes of its dataset."""
     return {
         "title": case.title,
         "case": case.to_toml(),

@@ -219,7 +219,7 @@ def listed(
 
 
 def from_dataset(case: Case, data: xr.Dataset) -> Design:
-    """Cases as a dataset tells them: variables, and coordinates of dimensions, are keys; dimensions are kept.
+    """Cases from a dataset: variables, and coordinates of dimensions, are keys; dimensions are kept.
 
     Raises InputError.
     """
@@ -319,7 +319,7 @@ def in_a_word(name: str) -> str:
 
 
 def _check_some(case: Case, design: Design) -> None:
-    """Refuse a list of cases of which none of the first can be read; single ones may fail, and the study tells."""
+    """Reject a list of cases of which none of the first can be read; a study marks single ones that fail."""
     errors = [InputError(f"{design.named(number)}: {text}") for number, text in design.faults.items()][:1]
     for number in _spread(design.count):
         if number in design.faults:

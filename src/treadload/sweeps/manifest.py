@@ -1,4 +1,4 @@
-"""What a store says of its files: JSON under a checksum, sizes and checksums of the files of its arrays."""
+"""What a store records about its files: JSON under a checksum, sizes and checksums of the files of its arrays."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ DIED = (
 
 
 def check_guard() -> None:
-    """End this process if it only imports the script of a study that starts it; the study then says so."""
+    """End this process if it only imports the script of a study that starts it; the study then states so."""
     # multiprocessing itself asks the same to refuse a start in a process that starts.
     if getattr(multiprocessing.current_process(), "_inheriting", False):
         raise SystemExit(_UNGUARDED)

@@ -2,7 +2,7 @@
 
 Every record is a line of the journal, `.records.jsonl`, as soon as its case ends. The arrays of the group are made of
 the journal, of the numbers again and again, of the fields when the study stops: until then each case's fields wait in
-a file of their own in `.fields`. `.current`, the mark, says of which journal the arrays are made, and the size and
+a file of their own in `.fields`. `.current`, the mark, records of which journal the arrays are made, and the size and
 checksum of their files; while these are as they were, no record has to be read. What is damaged is made again of
 the journal; cases whose fields are lost are solved again.
 """
@@ -206,7 +206,7 @@ class Store:
 
     @contextlib.contextmanager
     def writing(self) -> Iterator[None]:
-        """Say what is kept where the disk is full. Raises WriteError."""
+        """State what is kept where the disk is full. Raises WriteError."""
         try:
             yield
         except (OSError, WriteError) as error:
@@ -236,7 +236,7 @@ def begun(path: str | os.PathLike[str], case: Case, design: Design, question: Qu
     store = Store(path, case, design, question, name)
     with _locked(path):
         mark = read_mark(path)
-        # A damaged description is written anew if the mark is that of this study.
+        # A damaged description is written again if the mark is that of this study.
         if mark is not None and mark.study == name and not is_whole(path):
             store.repaired = f"the description of the study, {path / STUDY}, was damaged and is written again"
             with store.writing():

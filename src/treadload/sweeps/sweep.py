@@ -50,7 +50,7 @@ class Sweep(BaseResult, group="sweep"):
     """What a study gave.
 
     dataset: results over the dimensions of the design, its inputs as coordinates; NaN where a case failed or was not
-    solved; `status` says which, `seconds` how long each took. Of a store, arrays are read when they are used.
+    solved; `status` states which, `seconds` how long each took. Of a store, arrays are read when they are used.
     case: the base case. path: of the store, "" in memory.
     """
 
@@ -263,7 +263,7 @@ def _design(case: Case, vary: object) -> Design:
 
 
 def _tried(data: xr.Dataset, document: Mapping[str, object]) -> None:
-    """Read what a file says of a study, as its methods do. Raises InputError and what else goes wrong."""
+    """Read the description of a study from a file, as its methods do. Raises InputError and what else goes wrong."""
     for numbers in json.loads(data.attrs["warnings"]).values():
         [int(number) for number in numbers]
     failed = [(int(number), str(reason)) for number, reason in json.loads(data.attrs["failures"])]

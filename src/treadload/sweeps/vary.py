@@ -1,4 +1,4 @@
-"""What is varied, as texts and tables say it: "friction=0.3:0.9:7", a CSV file, a sheet of Excel."""
+"""What is varied, from texts and tables: "friction=0.3:0.9:7", a CSV file, a sheet of Excel."""
 
 from __future__ import annotations
 

@@ -17,7 +17,7 @@ class RecordedSurface:
 
     words: of the surface. extent: m. quality: of the scan. camber: rad. outer_radius, crown_arc_radius: m, or None.
     cross_section: its grooves; None in files of earlier versions.
-    Its gap cannot be asked again: `height_map` raises InputError that says how to go on.
+    Its gap cannot be asked again: `height_map` raises InputError that states how to go on.
     """
 
     words: str

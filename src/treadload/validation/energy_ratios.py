@@ -57,7 +57,7 @@ PRINTED_MIXES = (
 
 
 def energy_ratio_checks() -> Iterator[Check]:
-    """Energy ratios at 148 psi. Of the inputs the creep rate has three digits, which the ratio feels by 0.4 %."""
+    """Energy ratios at 148 psi. Of the inputs the creep rate has three digits, which change the ratio by 0.4 %."""
     for mix in PRINTED_MIXES:
         computed = float(mix.law.ratio(_STRESS * PSI))
         yield relative("energy ratio", f"{mix.name}: at 148 psi", computed, mix.ratio, 5e-3, _SOURCE)

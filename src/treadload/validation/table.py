@@ -96,7 +96,7 @@ def run_checks(progress: Callable[[str], None] | None = None, names: Iterable[st
     """Run the checks and compare.
 
     progress: called with the name of each group before it runs. names: of the groups, see `GROUPS`; None for all.
-    Returns the checks in the order of the table. A group whose solver stops gives one failed check that says why.
+    Returns the checks in the order of the table. A group whose solver stops gives one failed check with the reason.
     Raises InputError for an unknown name.
     """
     wanted = list(GROUPS) if names is None else list(names)

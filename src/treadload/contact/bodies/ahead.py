@@ -1,7 +1,7 @@
 """Displacement where particles were a step ago: the fields of the old tractions, ahead of the cells' centres.
 
 Nothing is interpolated: the influence coefficients are taken at the travelled distance, a fraction of a cell
-or several cells, so that particles ahead of the leading edge bring along what they felt there.
+or several cells, so that particles ahead of the leading edge bring along their displacement there.
 """
 
 from __future__ import annotations

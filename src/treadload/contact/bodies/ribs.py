@@ -1,6 +1,6 @@
 """Ribs with free sides on a belt: a tread that is the same along travel only.
 
-The compliance of a rib is that of its cross-section (`kernels.sections`). Ribs that stand apart do not feel each
+The compliance of a rib is that of its cross-section (`kernels.sections`). Ribs that stand apart do not affect each
 other through their thin common undertread: at the depth of a truck's grooves that is 1.6 % of the compliance under
 loads that do not vary along travel, and less under others.
 """

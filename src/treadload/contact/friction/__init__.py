@@ -1,4 +1,4 @@
-"""Friction laws: how much shear a pressure bears, by slip, direction, place and heat."""
+"""Friction laws: how much shear a pressure can transmit, by slip, direction, place and heat."""
 
 from treadload.contact.friction.heat import FlashHeating, Heat
 from treadload.contact.friction.laws import (

@@ -2,7 +2,7 @@
 
 Where friction reads the slip, both are solved in turn: the bound of the last slip, the slip under that bound, a
 part of the way. Friction that falls may leave two steady states, one that sticks more and one that slides more;
-the rounds start from the coefficient at rest and so lead to the first, unless a start says otherwise.
+the rounds start from the coefficient at rest and so lead to the first, unless a start is given.
 
 Friction that rises with slip, as rubber's does at first, is a monotone law and has one steady state. There the bound
 of a cell moves with its slip: a round takes it where the line from rest to the last slip meets the line on which the
@@ -130,7 +130,7 @@ def strongest(law: FrictionLaw, at: Interface) -> Array:
     """Bound of shear (ny, nx), Pa, at the slip, the same in all cells, at which friction carries most.
 
     That is at rest, unless friction rises with slip. Raises InputError for coefficients that are negative, not finite
-    or beyond what the law says is its largest.
+    or beyond the largest one that the law states.
     """
     best = law.bound(replace(at, slip=np.zeros_like(at.slip)))
     for slip in _PROBES if law.needs_speed else ():

@@ -99,7 +99,7 @@ class Growth(BaseResult, group="growth"):
         return str(self.dataset.attrs["grows"])
 
     def rows(self) -> tuple[Row, ...]:
-        """Years until the crack starts, is so deep and is through, with their scatter; its cause; the verdict."""
+        """Years until the crack starts, reaches depths and is through, with scatter; its cause; the assessment."""
         data = self.dataset
         rows = [row("growth_starts", str(data.attrs["starts"]))]
         last = len(self.depths) - 1

@@ -1,1 +1,1 @@
-"""How many passes a strain, a stress or a bond bears."""
+"""Allowable load repetitions of a strain, a stress or a bond."""

@@ -42,7 +42,7 @@ class AgedLine(PowerLaw):
     """Fatigue line between that of the young mix and that of old cores, by how far the binder has hardened.
 
     epsilon_6, slope: of the young mix, plain strain and b. hardening: 0 for the young mix, 1 for the cores, at most
-    1.5. ln N is linear in it between the two lines, which is an assumption: cores of one age each cannot tell.
+    1.5. ln N is linear in it between the two lines, which is an assumption: cores of one age each cannot test it.
     The cores: ε₆ = 123 microstrain, b = -0.342, scatter 0.44 of log₁₀ N, in bending, stress over initial stiffness;
     as stress N = 10^4.20 (σ/MPa)^-2.36. b is -0.25 to -0.31 where strength or voids are held equal: weak cores were
     tested at small stresses. Raises InputError.
@@ -81,7 +81,7 @@ class AgedLine(PowerLaw):
 
     @property
     def caveat(self) -> str:
-        """What the cores do not say."""
+        """What the cores do not show."""
         return (
             "its numbers are fitted to old cores of dikes, no road, and linear in the hardening between; its slope "
             "is no gain over -0.2 on cores unseen (1.5 standard errors)"

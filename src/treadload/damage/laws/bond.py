@@ -1,5 +1,5 @@
-"""What the bond between two layers bears: Coulomb's strength with a tensile limit, its utilisation by a load, and
-its fatigue in shear.
+"""The strength of the bond between two layers: Coulomb's strength with a tensile limit, its utilisation by a load,
+and its fatigue in shear.
 
 Another strength is a subclass of `BondStrength`; a case names it by a quantity that makes its `BondUtilisation`, as
 `utilisation_of` does.
@@ -45,7 +45,7 @@ _RECALLED = "the least force of Leutner's test is from memory, no source was rea
 
 
 class BondStrength(ABC):
-    """What a bond bears, whichever the law: subclasses are frozen dataclasses.
+    """The strength of a bond, whichever the law: subclasses are frozen dataclasses.
 
     caveat: which of its numbers have no source that was read; a field, or nothing.
     """
@@ -58,7 +58,7 @@ class BondStrength(ABC):
 
     @property
     def tension_limit(self) -> float:
-        """Tension at which the bond fails without shear, Pa; infinite where the law says nothing of tension."""
+        """Tension at which the bond fails without shear, Pa; infinite where the law has no limit in tension."""
         return math.inf
 
     def at(self, temperature: float) -> Self:
@@ -77,7 +77,7 @@ class InterfaceStrength(BondStrength):
     cohesion: c, Pa, >= 0, or a function that gives it at a temperature, °C. friction_angle: φ, rad, in [0, π/2).
     tensile_strength: Pa, or a function of °C likewise, at most c / tan φ, where the line ends; left out, the line's
     own end, and no limit where φ = 0. caveat: which numbers have no source that was read.
-    The law says when an intact bond would fail; friction on a debonded face is another matter.
+    The law predicts when an intact bond fails; friction on a debonded face is another matter.
     Raises InputError.
     """
 
@@ -152,7 +152,7 @@ class InterfaceStrength(BondStrength):
 
     @property
     def tension_limit(self) -> float:
-        """Tension at which the bond fails without shear, Pa; infinite where the law says nothing of tension."""
+        """Tension at which the bond fails without shear, Pa; infinite where the law has no limit in tension."""
         return self._end if self.tensile_strength is None else self._number(self.tensile_strength)
 
     @property
@@ -203,7 +203,7 @@ class BondUtilisation(Quantity):
     """Utilisation of a bond by a load, at an interface of the road; it fails at 1.
 
     strength: of the bond; left out, a response does not give it. Readings are at most 1000, round-off of the solver,
-    as on an interface that bears no shear, is 0. The layers separate along the horizontal plane.
+    as on an interface without shear, is 0. The layers separate along the horizontal plane.
     """
 
     strength: BondStrength | None = None
@@ -256,7 +256,7 @@ class ShearFatigue(PowerLaw):
     """Fatigue of a bond: passes N = (u / u₁)^(1/b) that a utilisation u allows.
 
     slope: b, in (-1, 0), from cyclic shear tests of this bond at this temperature. single_pass: u₁, utilisation that
-    one pass bears; 1 ties the line to the strength itself. caveat: which numbers have no source that was read.
+    one pass allows; 1 ties the line to the strength itself. caveat: which numbers have no source that was read.
     reads: the utilisation of a bond, with its strength where a criterion reads it of a response.
     It reads the largest utilisation, once as each axle passes, though the shear reverses under it: take a slope
     counted likewise. Straight lines in log-log were found by Tozzo, D'Andrea, Cozzani and Meo (2014), Modern Applied

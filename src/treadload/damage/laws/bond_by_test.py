@@ -42,7 +42,7 @@ class TimedStrength(BondStrength):
     cohesion: c₀, Pa, > 0, at the temperature T₀, °C, and the rate v₀ of the test's halves, m/s. softening: a, 1/K,
     >= 0. rate_exponent: m, in [0, 1). friction_angle: φ, rad, in [0, π/2). tensile_strength: Pa, at T₀ and v₀, and
     with c elsewhere; left out, where Coulomb's line ends. slip: displacement at which a test fails, m.
-    temperatures, rates: (least, most) of the tests, °C and m/s. Beyond them the law stays on the safe side and says
+    temperatures, rates: (least, most) of the tests, °C and m/s. Beyond them the law stays on the safe side and states
     so: where strength would rise, colder and faster, it is held; where it falls it goes on falling.
     scatter: relative standard deviation of tests about the law. caveat: which numbers have no source that was read.
     Raises InputError.
@@ -163,7 +163,7 @@ class TimedStrength(BondStrength):
 
     @property
     def tension_limit(self) -> float:
-        """Tension at which the bond fails without shear, Pa; infinite where the law says nothing of tension."""
+        """Tension at which the bond fails without shear, Pa; infinite where the law has no limit in tension."""
         return self._law.tension_limit
 
     def at(self, temperature: float) -> Self:

@@ -32,7 +32,7 @@ class EnergyRatio:
     DCSE_f in kJ/m³. σ: a conventional tensile stress of the asphalt layer, the same for all mixes compared; reports
     use 148 and 150 psi (1.02, 1.03 MPa), a thesis assumes 230 psi (1.59 MPa). It is not the peak that a computed
     contact leaves at the surface, which depends on the tread and on the cells and may exceed the strength: `warnings`
-    says so. Read in a thesis of the University of Florida after Roque et al. (2004). Verified by three mixes of a
+    states so. Read in a thesis of the University of Florida after Roque et al. (2004). Verified by three mixes of a
     report of the Florida DOT (2013, table 4): 2.812, 4.165 and 10.973 at 148 psi, printed 2.81, 4.16 and 10.93.
     """
 

@@ -1,4 +1,4 @@
-"""A fatigue line through tests: least squares of log N, its scatter, and what each specimen says unseen."""
+"""A fatigue line through tests: least squares of log N, scatter, and predictions of specimens left out."""
 
 from __future__ import annotations
 

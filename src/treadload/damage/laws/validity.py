@@ -23,9 +23,9 @@ def outside(law: FatigueLaw, value: float) -> str:
 
 
 def warnings_of(law: FatigueLaw, strain: float | Array) -> tuple[str, ...]:
-    """Sentences for the user on what a law says of a reading: numbers without a source, extrapolation.
+    """Sentences for the user about a law at a reading: numbers without a source, extrapolation.
 
-    strain: what the law reads, any shape; the largest finite value decides. Without a reading nothing is said.
+    strain: what the law reads, any shape; the largest finite value decides. Without a reading nothing is stated.
     """
     strains = np.asarray(strain, dtype=float)
     largest = float(np.max(strains, where=np.isfinite(strains), initial=0.0))
@@ -39,8 +39,8 @@ def range_warnings(
     """Sentences on a criterion of a life: numbers of its laws without a source, and damage outside of their range.
 
     laws: (axle_class, season). readings, shares: largest reading and share of the damage, (axle_class, season).
-    names: of the classes and of the seasons. How much damage lies outside is said, with the class and season that do
-    most of it; the largest reading of all, which may do little, besides.
+    names: of the classes and of the seasons. How much damage lies outside is stated, with the class and season that
+    do most of it; the largest reading of all, which may do little, besides.
     """
     most, largest = (_largest(values) for values in (shares, readings))
     caveats = dict.fromkeys(f"{law}: {law.caveat}" for law in (laws[k][s] for k, s in (most, largest)) if law.caveat)

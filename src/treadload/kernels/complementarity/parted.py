@@ -95,8 +95,8 @@ def solve_parted(
     """Jump and traction of a parted face.
 
     traction: (3, ny, nx), Pa, t₀: shear along x and y and the pressure, weight included. stiffness: H. friction: μ,
-    >= 0; 0 bears no shear. tolerance: of the traction, as a part of the largest given. start: jump and traction to
-    begin with.
+    >= 0; 0 transmits no shear. tolerance: of the traction, as a part of the largest given. start: jump and traction
+    to begin with.
     The residual is above the tolerance where it did not converge.
     """
     largest = float(np.abs(traction).max())

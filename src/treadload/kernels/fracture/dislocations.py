@@ -1,6 +1,6 @@
 """Stress of dislocations in a layer of a plane section: in the plane without end, of its images, of all layers.
 
-A dislocation is told by its strength: an edge by E b / (4π (1 - ν²)), a screw by μ b / 2π, N/m. x along the section,
+A dislocation is given by its strength: an edge by E b / (4π (1 - ν²)), a screw by μ b / 2π, N/m. x along the section,
 z down. Method: Fourier integrals over waves along x; images in the two boundaries of the layer, as if half-spaces lay
 beyond them, are closed forms, and what the layers add is the integral that is left.
 """
@@ -39,7 +39,7 @@ class Section:
 
     @property
     def slides(self) -> bool:
-        """Whether an interface gives way in proportion to its shear, which short waves feel at any distance."""
+        """Whether an interface slips in proportion to its shear, which matters to short waves at any distance."""
         return any(0 < strip.slip < math.inf for strip in self.strips)
 
     @cached_property
@@ -75,7 +75,7 @@ class Section:
 
 
 def _at_once(slip: float) -> float:
-    """The slip that short waves feel."""
+    """The slip that matters to short waves."""
     return math.inf if slip > 0 else 0.0
 
 

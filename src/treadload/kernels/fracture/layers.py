@@ -1,7 +1,7 @@
 """Waves in a plane section of elastic layers, and what comes back of them into the layer of a crack.
 
-Plane strain with Airy's function F = (α + β k d) exp(-k d), d the distance from where its amplitudes (α, β) are told,
-and antiplane shear beside it. Amplitudes are of stress, Pa; displacements are told times k.
+Plane strain with Airy's function F = (α + β k d) exp(-k d), d the distance from where its amplitudes (α, β) are
+taken, and antiplane shear beside it. Amplitudes are of stress, Pa; displacements are multiplied by k.
 """
 
 from __future__ import annotations
@@ -89,7 +89,7 @@ def _bottom(strips: tuple[Strip, ...], count: int, rigid: bool) -> Array:
 
 
 def _wave(strip: Strip, *, up: bool = False) -> tuple[Array, Array]:
-    """Traction (xz, zz) and displacement times k (x, z) of a wave's amplitudes, where these are told."""
+    """Traction (xz, zz) and displacement times k (x, z) of a wave's amplitudes, where these are taken."""
     nu = strip.poisson
     sign = -1.0 if up else 1.0
     traction = np.array([[-sign, sign], [-1.0, 0.0]])

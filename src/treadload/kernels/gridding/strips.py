@@ -242,9 +242,9 @@ def without_images(values: Array | ComplexArray, length: int, fading: float, *, 
     """Waves of a kernel that fades behind the load, without those of its images ahead.
 
     values: (length // 2 + 1, …) in the frame of `Strips`. odd: as in `shortened`. length: cells after which loads
-    repeat. fading: cells over which displacements fade. Half way round, where the body at once feels nothing any
-    more, what fades is that of one load and, by a geometric series, of all images ahead of it; it falls with
-    exp(-distance / fading) from there.
+    repeat. fading: cells over which displacements fade. Half way round, where nothing is left of the body's
+    immediate response any more, what fades is that of one load and, by a geometric series, of all images ahead of
+    it; it falls with exp(-distance / fading) from there.
     """
     offset = fft.fftfreq(length, 1 / length)
     behind = length - length // 2

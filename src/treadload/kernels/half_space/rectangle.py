@@ -2,7 +2,7 @@
 
 All coefficients are corner sums [[f]] of closed forms in the distance (X, Y) from a corner, sampled a cell apart:
 from the centre of the loaded cell, where parity gives the other three quadrants, or from any distance ahead of it
-along x, as for what a particle felt before it travelled a step. There a corner may lie on x = 0, where every form has
+along x, as for a particle before it travelled a step. There a corner may lie on x = 0, where every form has
 a limit.
 
 q acts on body 1, p presses the bodies together, u = u1 - u2, u_n opens the gap (after Kalker 1990):

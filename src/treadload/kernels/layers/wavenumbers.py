@@ -3,7 +3,7 @@
 f(x, y) = (2π)⁻² ∬ F exp(i(kx x + ky y)) dkx dky by Gauss panels that shrink towards kx = 0 and ky = 0, where
 the fields of a layered body are not smooth: 1/k, kx ky/k² and the like. Both transforms are products with
 dense one-dimensional exponentials. Fields are real, so kx >= 0 serves; kernels depend on |k|, so each value
-serves ky and -ky, told apart as even and odd parts.
+serves ky and -ky, distinguished as even and odd parts.
 """
 
 from __future__ import annotations

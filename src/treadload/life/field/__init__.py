@@ -1,4 +1,4 @@
-"""What roads show: tables of road sections, the ages of their first cracks, and what these say of the mechanics."""
+"""Observed roads: tables of road sections, the ages of their first cracks, what these show about the mechanics."""
 
 from treadload.life.field.bench import field_bench, field_look
 from treadload.life.field.mechanics import SectionDamage, predict_damage, predict_sections

@@ -1,4 +1,4 @@
-"""The field bench: what a table of road sections says of the age of cracks, and of mechanics that predict it."""
+"""The field bench: what a table of road sections shows about the age of cracks, and of mechanics that predict it."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def field_bench(
     event: Event = "wheel-path",
     progress: Progress | None = None,
 ) -> FieldBench:
-    """What a table of road sections says of the age of the first crack, and of mechanics that predict it.
+    """What a table of road sections shows about the age of the first crack, and of mechanics that predict it.
 
     The ages are interval-censored and lognormal, conditional on being in the table at the first survey; parameters
     are ln of the level, the scatter, the lag from crack to overlay and the power of the mechanics, fitted by maximum

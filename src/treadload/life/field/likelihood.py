@@ -1,8 +1,8 @@
 """Likelihood of the ages at which sections cracked first: lognormal, interval-censored, and who is in a table at all.
 
 A section is in a programme of surveys only if nobody overlaid it before its first survey. A crack at the age T and an
-overlay a lag L later leave it in the table at its first survey's age e where T + L > e. A fit that does not say so
-takes the sections that were left for all roads, and is late.
+overlay a lag L later leave it in the table at its first survey's age e where T + L > e. A fit that does not account
+for this takes the sections that were left for all roads, and is late.
 """
 
 from __future__ import annotations
@@ -106,7 +106,7 @@ def in_table(age: Array, parameters: Parameters, medians: Array) -> Array:
 def log_likelihood(sections: Sections, parameters: Parameters, kind: Kind) -> Array:
     """Ln of the probability of what each section shows (n,), by a kind of likelihood.
 
-    Sections that tell a kind nothing, those cracked at entry of "left-truncated", have 0.
+    Sections that contribute nothing to a kind, those cracked at entry of "left-truncated", have 0.
     """
     low, high, entry = sections.interval.low, sections.interval.high, sections.entry
     medians = parameters.medians(sections.index)

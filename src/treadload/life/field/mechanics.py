@@ -118,9 +118,9 @@ def predict_damage(
 ) -> tuple[SectionDamage, ...]:
     """Damage of every section of a table in a year, by the chain from the tire to Miner's sum.
 
-    priors: what the table does not tell; left out, the defaults. kept: a JSON file in which solved sections are kept:
-    those in it under the same inputs, priors and version are not solved again, so that an interrupted run resumes.
-    workers: threads; all cores if left out. progress: called after every section.
+    priors: what the table does not state; left out, the defaults. kept: a JSON file in which solved sections are
+    kept: those in it under the same inputs, priors and version are not solved again, so that an interrupted run
+    resumes. workers: threads; all cores if left out. progress: called after every section.
     Raises InputError, and ConvergenceError of a contact.
     """
     assumed = priors or Priors()
@@ -162,7 +162,7 @@ def predict_sections(
 ) -> Predictions:
     """Ages that the mechanics predict for the sections of a table, by the line of a young mix, trusted as they stand.
 
-    priors: what the table does not tell; left out, those of the table, else the defaults. The others as in
+    priors: what the table does not state; left out, those of the table, else the defaults. The others as in
     `predict_damage`. parts: largest tensile strains at surface and bottom, the share of daily
     thermal stress, 1 where the traffic is a prior, and the error of values interpolated over the climate. variants:
     ages by lines up to that of old cores, and by multiples of the thermal damage.

@@ -1,4 +1,4 @@
-"""What a table of road sections does not tell: structure, mix, vehicles, tires and weather, each with its reason."""
+"""What a table of road sections does not state: structure, mix, vehicles, tires and weather, each with its reason."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ class RoadSection:
 
 @dataclass(frozen=True)
 class Priors:
-    """What the sections of a table do not tell, with the reasons in `reasons`; another set is another prediction.
+    """What the sections of a table do not state, with the reasons in `reasons`; another set is another prediction.
 
     mix: of all asphalt. base_mix: of an asphalt-treated base. treated_thickness: of that base, m. granular: thickness
     of the untreated base by the least thickness of the asphalt, m. granular_modulus, bound_modulus, subgrade_modulus:

@@ -81,7 +81,7 @@ class FieldLook(BaseResult, group="field_look"):
 
 @dataclass(frozen=True, eq=False)
 class FieldBench(BaseResult, group="field_bench"):
-    """What a table of road sections says of the age of the first crack, and of mechanics that predict it.
+    """What a table of road sections shows about the age of the first crack, and of mechanics that predict it.
 
     dataset: crack_level, crack_scatter, crack_lag with _low, _high, their 95 % interval, and _error of ln (event,
     likelihood); log_score, score_gain over ages with a lag, score_gain_error (model), nats; cell_sections,

@@ -35,7 +35,7 @@ def drawn(truth: Parameters, index: Array, surveys: Sequence[Array], random: np.
 
 @dataclass(frozen=True, eq=False)
 class Recovery:
-    """What fits of drawn tables say of their truth.
+    """How well fits of drawn tables recover their truth.
 
     covered: share of tables whose 95 % interval holds it, by parameter. powers: fitted g of each table. lateness:
     level of the plain fit over the true one.
@@ -49,7 +49,7 @@ class Recovery:
 def recovery(
     truth: Parameters, index: Array, surveys: Sequence[Array], *, tables: int = 200, seed: int = 1
 ) -> Recovery:
-    """Draws tables, fits them, and says how often the 95 % interval of the profile holds the truth.
+    """Draws tables, fits them, and counts how often the 95 % interval of the profile holds the truth.
 
     index, surveys: as of `drawn`. An interval holds the truth where the log likelihood with the parameter held there
     lies no more than `DROP` below the maximum.

@@ -55,7 +55,8 @@ class TableFile:
     names of columns where they differ from `COLUMNS`. units: of columns where they differ: thickness "mm", "cm", "m"
     or "in"; traffic "1000/year" or "1/year"; mean_air "degC" or "degF". empty_crack: what an empty cell of a crack
     means, "none seen" or "not recorded". title, source, caveats: of the table. predictions: file of ages that
-    mechanics predicted, see `write_predictions`. The table [priors] says what the sections do not tell, see `Priors`.
+    mechanics predicted, see `write_predictions`. The table [priors] gives what the sections do not state, see
+    `Priors`.
     """
 
     name: str

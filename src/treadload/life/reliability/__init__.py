@@ -1,4 +1,4 @@
-"""Years with a probability: what a life scatters by, from few solves of changed roads."""
+"""Reliability of the service life: what a life scatters by, from few solves of changed roads."""
 
 from treadload.life.reliability.propagation import MonteCarlo
 from treadload.life.reliability.solution import Reliability

@@ -82,7 +82,7 @@ class Reliability(BaseResult, group="reliability"):
         return float(data["years_at_risk"].sel(criterion=criterion)[near[0]])
 
     def rows(self) -> tuple[Row, ...]:
-        """Service life of every criterion at the risks, what scatters it most, what the laws hold, the verdict."""
+        """Service life of every criterion at the risks, what scatters it most, what the laws hold, the assessment."""
         data = self.dataset
         risks = [f"at a risk of {100 * float(risk):g} %" for risk in data["risk"]]
         ends, deviations = (json.loads(data.attrs[name]) for name in ("ends", "deviations"))

@@ -1,4 +1,4 @@
-"""What would help a road: each change that an agency can make, by one stated step, solved anew and ranked."""
+"""Remedies of a road: each change that an agency can make, by one stated step, solved again and ranked."""
 
 from treadload.life.remedy.solution import Remedies
 from treadload.life.remedy.solve import remedies

@@ -86,7 +86,7 @@ class Remedies(BaseResult, group="remedies"):
         )
 
     def rows(self) -> tuple[Row, ...]:
-        """The table of years by remedy and criterion, what helps each criterion, standard axles, and the verdict."""
+        """The table of years by remedy and criterion, what helps each criterion, standard axles, the assessment."""
         data = self.dataset
         criteria = [str(name) for name in data["criterion"].to_numpy()]
         rows: list[Row] = []

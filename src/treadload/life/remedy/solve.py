@@ -73,7 +73,7 @@ def remedies(
     life: of the design. steps: see `RemedySteps`; left out, its defaults. equivalents: of the life, for its standard
     axles; solved if left out. workers, progress: as in `solve_life`. Each remedy is a design of its own whose
     contacts, responses and sum are solved as those of the life are; only wander, which leaves every evaluated value
-    as it is, is summed anew from the values of the life. Nothing is linearised. A change that the design does not
+    as it is, is summed again from the values of the life. Nothing is linearised. A change that the design does not
     allow, or that ends in an error, is in `skipped` with the reason. A remedy under which what does most damage
     leaves the range of its law has a warning. Raises InputError for a life that never ends or is not of the design.
     """

@@ -1,7 +1,7 @@
 """Figures that are looked at in a browser: linked maps, profiles along a line, sections, the tread in space.
 
-Functions of datasets, as all figures of the house, so that a file is enough; they return Figures of plotly, which the
-extra "app" brings.
+Functions of datasets, as all figures of the package, so that a file is enough; they return Figures of plotly, which
+the extra "app" brings.
 """
 
 from treadload.plots.interactive.basins import basin_fit, moduli_profile

@@ -39,7 +39,8 @@ _DECADES = 6
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """A map. name: of the variable. words, unit: of what the colours say. values: (ny, nx) in the unit, NaN: nothing.
+    """A map. name: of the variable. words, unit: of what the colours show. values: (ny, nx) in the unit, NaN:
+    nothing.
 
     kind: of its colour scale, see `theme.colour_scale`. scale: limits of the colours. outlines: (mask, plan) of what
     is framed, with a role, "contact", "stick", "slip" or "measured". arrows: (n, 4), middle and half of each, mm.

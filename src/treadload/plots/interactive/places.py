@@ -1,4 +1,4 @@
-"""Places that a verdict names, as marks on a map, and where to look from."""
+"""Places that an assessment names, as marks on a map, and where to look from."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ class Place:
 def places_of(source: Source) -> list[Place]:
     """Places that a result, or its dataset, names: its worst point, largest value, or worst line along travel.
 
-    Of a verdict its worst point; of a contact the largest pressure; of a response the largest extension, in space and
-    in the plane, at every depth; of a life the worst y of every criterion, which has no x.
+    Of an assessment its worst point; of a contact the largest pressure; of a response the largest extension, in
+    space and in the plane, at every depth; of a life the worst y of every criterion, which has no x.
     """
     data = fields_of(source)
     variables: dict[str, Any] = {str(name): variable for name, variable in data.variables.items()}

@@ -30,7 +30,7 @@ def tread(contact: Source, *, theme: str | Theme = "light", height: float = 520.
     """The tread before loading, turned up, with the contact pressure in colour, as a Figure of plotly.
 
     contact: with initial_gap (y, x), m, NaN where there is no tread, and pressure, Pa. x and y in true
-    scale, the relief exaggerated as the title says. Returns the figure. Raises InputError without the tread.
+    scale, the relief exaggerated by the factor in the title. Returns the figure. Raises InputError without the tread.
     """
     look = theme_of(theme)
     data = fields_of(contact, "initial_gap", "pressure")

@@ -1,4 +1,4 @@
-"""How figures on a page look: the house's colours on light and on dark paper."""
+"""How figures on a page look: the package's colours on light and on dark paper."""
 
 from __future__ import annotations
 

@@ -42,7 +42,7 @@ CONFIG = {
     "responsive": True, "displaylogo": False, "edits": {"shapePosition": True}, "scrollZoom": True,
     "modeBarButtonsToRemove": ["select2d", "lasso2d", "autoScale2d"],
 }  # fmt: skip
-"""What plotly is told of every figure of a page."""
+"""Settings of plotly for every figure of a page."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -46,7 +46,7 @@ class Layers:
 
     @classmethod
     def of(cls, data: xr.Dataset) -> Layers:
-        """What a response's attributes `interfaces` (m), `layer_names` (JSON) and `side` say; else one layer."""
+        """By a response's attributes `interfaces` (m), `layer_names` (JSON) and `side`; else one layer."""
         # A file gives back a list of one as a number.
         ends = np.atleast_1d(np.asarray(data.attrs.get("interfaces", []), dtype=float)) * MM
         layer_names = data.attrs.get("layer_names", "[]")

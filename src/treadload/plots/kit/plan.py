@@ -166,7 +166,7 @@ def limits(*values: Array, robust: bool = True) -> Limits:
     """One scale from 0 for all the arrays.
 
     Peaks at the edges of contact are singular: they grow with every finer grid. If a few cells stand far above
-    all others the scale stops below them and says so (`clipped`), else it ends at the largest value.
+    all others the scale stops below them and states so (`clipped`), else it ends at the largest value.
     """
     joined = np.concatenate([np.ravel(v) for v in values]) if values else np.zeros(0)
     positive = joined[np.isfinite(joined) & (joined > 0)]
@@ -240,7 +240,7 @@ def draw_outline(ax: Axes, mask: BoolArray, plan: Plan, colour: str = INK, width
 
 
 def contact_mask(data: xr.Dataset) -> BoolArray | None:
-    """Cells in contact (ny, nx): from the pressure, or what the surface stress says; None if neither is there."""
+    """Cells in contact (ny, nx): from the pressure, or from the surface stress; None if neither is there."""
     if "pressure" in data:
         touching: BoolArray = plane(data, "pressure") > 0
         return touching
@@ -279,5 +279,5 @@ def peak_of(values: Array, *, horizontal: int = 2) -> tuple[int, int]:
 
 
 def empty_note(ax: Axes, text: str) -> None:
-    """Say in the middle of the axes that there is nothing to see."""
+    """Write in the middle of the axes that there is nothing to see."""
     ax.text(0.5, 0.5, text, transform=ax.transAxes, ha="center", va="center", color=MUTED, path_effects=halo())

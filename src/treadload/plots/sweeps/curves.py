@@ -208,7 +208,7 @@ def _draw(
     at: Mapping[str, object] | None,
     letters: int = LETTERS,
 ) -> tuple[list[Line2D], Shown | None]:
-    """Lines of a result, and what tells them apart; None where there is one."""
+    """Lines of a result, and what distinguishes them; None where there is one."""
     field = view.reading(of)
     along = view.input(against) if against else next(iter((*view.numeric, *view.inputs)))
     dim = str(view.data[along].dims[0]) if view.data[along].dims else ""
@@ -331,13 +331,13 @@ def _legend(ax: Axes, handles: Sequence[Line2D], how: Shown) -> None:
 
 
 def _thinned(handles: Sequence[Line2D]) -> list[Line2D]:
-    """As many lines as a legend tells, evenly of all."""
+    """As many lines as a legend shows, evenly of all."""
     most = min(len(handles), _IN_LEGEND)
     return [handles[k] for k in np.unique(np.linspace(0, len(handles) - 1, most).round().astype(int))]
 
 
 def _by(view: View, field: xr.DataArray, along: str, by: str | None) -> str:
-    """The dimension that tells the lines apart; empty for a single line."""
+    """The dimension that distinguishes the lines; empty for a single line."""
     if by is not None:
         name = by if not by or by in field.dims else view.input(by)
         if name and (name not in field.dims or name == along):

@@ -69,17 +69,17 @@ def compute_heterogeneous(
     materials, voids among them. sizes: window=, depth= and spacing=. window: length along x and width along y, m.
     depth: of the window from the surface down, m. at: its middle, m, for instance below the edge of a rib. spacing:
     of the cells, m, a whole part of the window's sides. A scan brings window, depth and spacing with it.
-    bond_strength: tension that the bond of mortar and stone bears, Pa, for the ravelling index; left out, the load's
-    largest pressure takes its place. borders: of spheres. "steps": a cell is of the stone that its centre is in, all
-    of it. "shares": each stone has as many cells as its volume, and cells that the border of a stiff one cuts have
-    the mean compliance of both parts: what stones bear and what they do to what is around them is then nearer to the
-    truth, by a factor of ten with 8 cells a radius; in cut cells the stress is that of both. progress: called with a
-    line of text while it computes.
+    bond_strength: tension that the bond of mortar and stone withstands, Pa, for the ravelling index; left out, the
+    load's largest pressure takes its place. borders: of spheres. "steps": a cell is of the stone that its centre is
+    in, all of it. "shares": each stone has as many cells as its volume, and cells that the border of a stiff one
+    cuts have the mean compliance of both parts: what stones bear and what they do to what is around them is then
+    nearer to the truth, by a factor of ten with 8 cells a radius; in cut cells the stress is that of both. progress:
+    called with a line of text while it computes.
 
     The stress of the mortar alone is that of `solve_response` at the cells' centres. Stones change it by equivalent
     eigenstrain in cells, below a free surface, see `kernels.eigenstrain.inclusions`. Limits: one Poisson's ratio and
-    modulus around the stones, that of the mortar also outside of the window; layers below do not feel the stones; the
-    contact does not either, which is right for a tire, a thousand times softer than the road; a stone's border is
+    modulus around the stones, that of the mortar also outside of the window; the stones do not affect layers below;
+    the contact does not either, which is right for a tire, a thousand times softer than the road; a stone's border is
     made of steps, so the peak in the cells beside it never converges: percentiles do. The error of the mean strain of
     soft stones and voids by these steps is `soft_strain_error`, a fit to finite elements, see
     `response.heterogeneous.cell_error`.

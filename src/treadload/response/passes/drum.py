@@ -1,4 +1,4 @@
-"""A drum that rolls over its own track: its pressure feels the rut of earlier passes, and the one that it makes.
+"""A drum that rolls over its own track: its pressure depends on the rut of earlier passes, and the one that it makes.
 
 As in `passes.steady` a pass is one fixed point of its plastic strain. The load is part of it: plastic strain of
 earlier passes, endless bars, and of this one, bars that reach back, moves the surface; the contact on what is left of

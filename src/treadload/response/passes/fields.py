@@ -32,7 +32,7 @@ def passes_dataset(
 ) -> xr.Dataset:
     """The dataset of `Passes`.
 
-    among: the courses that can yield. attrs: what else it says of itself. by_pass: more fields, one number a pass.
+    among: the courses that can yield. attrs: further attributes. by_pass: more fields, one number a pass.
     """
     strain = np.array([record.strain for record in records])
     across = box.y0 + box.dy * np.arange(-box.ny, 2 * box.ny)

@@ -1,4 +1,4 @@
-"""How much of a load a road bears: without yielding, and so that it comes to rest."""
+"""The largest part of a load under which a road does not yield, and under which it shakes down."""
 
 from __future__ import annotations
 

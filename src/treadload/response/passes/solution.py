@@ -91,7 +91,7 @@ class Passes(BaseResult, group="passes"):
 
     @property
     def in_words(self) -> str:
-        """The verdict as headlines tell it, with what more passes may change."""
+        """The assessment in the words of a headline, with what more passes may change."""
         return in_words(self.verdict, self.dataset.attrs.get("falls"))
 
     @property
@@ -104,7 +104,7 @@ class Passes(BaseResult, group="passes"):
         return (*PASSES, *(() if self.drum is None else DENTS))
 
     def rows(self) -> tuple[Row, ...]:
-        """Where it first yields, the rut pass by pass, errors of the grid, where it yields most, the verdict."""
+        """Where it first yields, the rut pass by pass, errors of the grid, where it yields most, the assessment."""
         data, attrs = self.dataset, self.dataset.attrs
         numbers = data["pass"].to_numpy()
         lines = [

@@ -35,7 +35,7 @@ def roll_passes(
 
     loads: as for `solve_response`: a contact, whose pressure and shear roll along +x, or loads of your own. road:
     with at least one layer whose material is an ElastoPlastic. passes: how many; under a PassesPowerLaw any number,
-    told at 1, 2, 5, 10, … of them. speed: m/s, > 0, which laws of Perzyna need, for the time under the load.
+    evaluated at 1, 2, 5, 10, … of them. speed: m/s, > 0, which laws of Perzyna need, for the time under the load.
     zone: spacing=, depth= and layers= of the box in which the road may yield.
     spacing: of the cells of the box that may yield, m, or their sizes along and across travel; left out, the
     footprint's longer side over 32, and across a twelfth of the width of its ribs or blocks where that is less, but
@@ -44,10 +44,10 @@ def roll_passes(
     above.
     offsets: lateral places of the wheel, m, one a pass, over and over; wander: standard deviation of these, m,
     instead: evenly spread normal ones, rounded to cells. tolerance: of the plastic strain of a pass, relative.
-    The pressure does not feel the rut, as under a soft tire. On layers the stress and the rut are those of the
+    The pressure does not depend on the rut, as under a soft tire. On layers the stress and the rut are those of the
     layered road, and the residual stress is that of a half-space of the yielding material. Material is followed along
     straight lines, strains are small. One pass is solved at once, see `passes.steady`. All passes are solved on cells
-    of twice the size too: what changes of rut_depth and peak_plastic_strain is their error, told in the summary,
+    of twice the size too: what changes of rut_depth and peak_plastic_strain is their error, stated in the summary,
     with a warning above 10 %.
     Raises InputError for a road that cannot yield, laws of passes among others, a missing speed, and a plastic zone
     that reaches the box.

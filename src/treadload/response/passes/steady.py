@@ -153,10 +153,10 @@ def roll(
 ) -> Pass:
     """One pass.
 
-    elastic: stress (6, nz, ny, nx), Pa, of the load on the elastic road; of a load that feels the track a function
-    that gives it, of what the pass has changed of the plastic strain so far, (6, nz, ny, nx). before: states of the
-    track. duration: in which material passes one cell, s. tolerance: of the plastic strain of the pass, relative.
-    most: rounds. steps: of the return map from one cell to the next.
+    elastic: stress (6, nz, ny, nx), Pa, of the load on the elastic road; of a load that depends on the track a
+    function that gives it, of what the pass has changed of the plastic strain so far, (6, nz, ny, nx). before:
+    states of the track. duration: in which material passes one cell, s. tolerance: of the plastic strain of the
+    pass, relative. most: rounds. steps: of the return map from one cell to the next.
     Raises NoSteadyPassError where it does not settle.
     """
     old = road.whole(before)[0]

@@ -105,7 +105,7 @@ def _coarse(
 def _with_error(
     question: Problem, fine: tuple[Box, list[Record], Outcome], coarse: tuple[Box, list[Record], Outcome]
 ) -> Outcome:
-    """What is told of the passes, with the error of their grid."""
+    """The result of the passes, with the error of their grid."""
     both = [
         (
             rut_depths([record.strain for record in records], box, question.road),
@@ -256,7 +256,7 @@ def follow(
 def verdict_of(
     track: Track, records: Sequence[Record], *, failed: bool, straight: bool
 ) -> tuple[dict[str, object], tuple[str, ...]]:
-    """Attributes that tell what passes come to, and sentences. failed: a pass has no steady state. straight: all
+    """Attributes with the outcome of the passes, and sentences. failed: a pass has no steady state. straight: all
     passes follow one line.
     """
     added_by, left_by = [record.added for record in records], [record.left for record in records]

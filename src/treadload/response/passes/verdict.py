@@ -31,7 +31,7 @@ _SOON, _FALLS = 0.03, 0.6
 
 
 def judged(added: Sequence[float], left: Sequence[float], yield_strain: float) -> Kind:
-    """The verdict on passes, see `CRITERION`.
+    """The assessment on passes, see `CRITERION`.
 
     added: largest equivalent plastic strain that each pass adds. left: largest change of it that each leaves.
     """
@@ -55,7 +55,7 @@ def still_falls(added: Sequence[float]) -> float | None:
 
 
 def in_words(verdict: str, falls: float | None) -> str:
-    """A verdict as a headline tells it: passes that fall have not yet decided it. falls: see `still_falls`."""
+    """An assessment in the words of a headline: passes that still fall are undecided. falls: see `still_falls`."""
     if falls is None:
         return verdict
     return f"{verdict} so far, not yet at rest: the last pass adds {100 * falls:.0f} % less than the one before"

@@ -100,7 +100,7 @@ class Answer:
 
     @property
     def about(self) -> dict[str, str]:
-        """What a dataset says of it."""
+        """Its description in a dataset."""
         return {"of": self.name, "unit": self.unit, "place": self.place}
 
     def reason(self, number: int) -> str:

@@ -87,8 +87,8 @@ def morris(
     """Effects of inputs along random trajectories that change one of them at a time, after Morris (1991).
 
     case: the base. ranges: key → (low, high). of, at: as in `tornado`. trajectories: of which each takes n + 1 cases
-    for n inputs; ten tell the few inputs that matter from the many that do not. logarithmic: of log10 of the result.
-    seed: of the trajectories. solving: store, jobs, in_threads, scheduler, progress, as in `sweep`.
+    for n inputs; ten separate the few inputs that matter from the many that do not. logarithmic: of log10 of the
+    result. seed: of the trajectories. solving: store, jobs, in_threads, scheduler, progress, as in `sweep`.
     Returns the Morris effects. A trajectory with a case that failed is left out and warned of; more than a fifth of
     them is an error. Raises InputError.
     Sources: Morris (1991), Technometrics 33; Campolongo, Cariboni and Saltelli (2007), Environ. Model. Softw. 22, of

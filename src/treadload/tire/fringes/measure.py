@@ -345,7 +345,7 @@ def _caveats(quality: FringeQuality) -> list[str]:
 
 
 def _check_top(tread: Array, evaluation: Evaluation, full: float | None, record: _Record) -> None:
-    """Say when a camera fills before its file does, or nothing tells when it is full."""
+    """Warn of a camera that saturates below the largest value of its file, or whose saturation is unknown."""
     top = float(tread.max())
     share = float((tread == top).mean())
     if evaluation.saturation is None and (full is None or top < full) and share > _TOP:

@@ -121,7 +121,7 @@ def check(patterns: Sequence[Pattern], calibration: ReferencePlane | CameraProje
 
 
 def full_level(pictures: Array) -> float | None:
-    """The largest grey level of whole numbers; of fractions nothing tells it."""
+    """The largest grey level of whole numbers; unknown for fractions."""
     kind: Any = pictures.dtype
     return float(np.iinfo(kind).max) if kind.kind in "ui" else None
 

@@ -25,7 +25,7 @@ def read_pictures(names: str | Sequence[str], folder: Path, what: str, steps: in
     names: files from the folder, one a step, in order; or one text: a pattern with "*", whose files are numbered, or
     an array of shape (n, rows, columns) as .npy. what: they are, for errors. steps: how many there must be. Raises
     InputError for a missing file or step, a colour picture, several sizes, and more pixels than are taken, which the
-    head of a file tells before it is decoded.
+    header of a file states before it is decoded.
     """
     files = _files(names, folder, what)
     if len(files) == 1 and files[0].suffix.lower() == ".npy":

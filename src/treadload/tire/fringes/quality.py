@@ -18,7 +18,7 @@ class FringeQuality(Described):
     unsure, steep: shares given up for low modulation, for too few steps that were not saturated, for an order that is
     not certain or hangs together with nothing, and for neighbours that differ as at walls. spared: share of pixels
     that lost a step to saturation and were kept. modulation: median, grey levels. noise: of a grey level, standard
-    deviation. gamma: found in the fringes, NaN if it cannot be told. corrected: gamma that was taken out, or 1.
+    deviation. gamma: found in the fringes, NaN if it cannot be determined. corrected: gamma that was taken out, or 1.
     deviation: median standard deviation of a pixel's height by noise, m. plane_residual: rms of the planes of the
     calibration about it, m, NaN without. cell: of the height map, m. filled: cells between pixels that took the mean
     of their neighbours. coverage: share of its cells with a height. warnings: one sentence each.

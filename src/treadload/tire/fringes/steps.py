@@ -22,7 +22,7 @@ _OPEN = 1e-3
 
 @dataclass(frozen=True, eq=False)
 class Steps:
-    """What the steps of one pattern tell of every pixel.
+    """What the steps of one pattern give at every pixel.
 
     phase: wrapped, rad, in (-π, π]; NaN where fewer than three steps are left. modulation, brightness: grey levels.
     spread: standard deviation of the phase for noise of one grey level, rad. used: steps that were not saturated.

@@ -44,12 +44,12 @@ class _Rung:
 
 
 def unwrap_by_periods(phases: Sequence[Array], fringes: Sequence[float], deviations: Sequence[Array]) -> Unwrapped:
-    """Phase of the finest of several patterns, whose order the coarser ones tell, each pixel by itself.
+    """Phase of the finest of several patterns, whose order follows from the coarser ones, each pixel by itself.
 
     phases: wrapped, rad, in (-π, π], one a pattern. fringes: periods of each over the width of the projector, not
     necessarily whole. deviations: standard deviation of each, rad. A pattern of at most one period begins the ladder
     (hierarchical); where there is none, differences of two phases make patterns of as many fringes as theirs differ
-    by, and differences of these, until one has at most one (heterodyne). Each rung tells the order of the next.
+    by, and differences of these, until one has at most one (heterodyne). Each level determines the order of the next.
     Raises InputError where no difference comes down to one fringe.
     Source: Zuo et al. (2016), Opt. Lasers Eng. 85, 84-103.
     """

@@ -1,4 +1,4 @@
-"""Lines of a profile laser in a text, and the TOML file that says what their numbers are.
+"""Lines of a profile laser in a text, and the TOML file that states what their numbers are.
 
 The text is ours, so that it claims no maker's format: a table, commas, semicolons, tabs or blanks between its cells,
 decimal points (or commas, beside another separator), lines that begin with # left out.
@@ -8,7 +8,7 @@ decimal points (or commas, beside another separator), lines that begin with # le
     points  the first line has words; every other line one point: encoder, x, z. A profile is what follows each
             other with one encoder reading
 
-A cell that is empty or says NaN was not measured, and so are the numbers that `invalid` lists.
+A cell that is empty or NaN was not measured, and so are the numbers that `invalid` lists.
 """
 
 from __future__ import annotations
@@ -93,7 +93,7 @@ class LaserFile:
 
     @property
     def turns(self) -> bool:
-        """True where the encoder tells an angle of the wheel, False where it tells a length of the way."""
+        """True where the encoder measures an angle of the wheel, False where it measures a length of the way."""
         return self.counts_per_turn is not None or _is_angle(self.encoder)
 
     @property

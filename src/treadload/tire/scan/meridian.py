@@ -88,7 +88,7 @@ def facet_sag(vertices: Array, faces: NDArray[np.int64], envelope: Array) -> flo
 
 
 def is_steady(unrolled: Array, meridian: Array, rows: BoolArray, sag: float, noise: float) -> bool:
-    """True when an unrolled tread (ny, nt) does not depend on the angle, so that its meridian says it all.
+    """True when an unrolled tread (ny, nt) does not depend on the angle, so that its meridian describes it fully.
 
     rows: (ny,) True on the tread. Beside walls of grooves, 99.5 % of it must lie within 0.3 mm, the facets' sag and
     four standard deviations of the noise (m) of the median: grooves across the tread, blocks and lugs do not.

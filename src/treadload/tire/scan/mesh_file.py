@@ -35,7 +35,7 @@ class Mesh:
 
 
 def import_trimesh() -> ModuleType:
-    """The trimesh package, or InputError that says how to get it."""
+    """The trimesh package, or InputError that states how to install it."""
     try:
         import trimesh
     except ImportError as error:

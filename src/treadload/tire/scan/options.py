@@ -76,7 +76,7 @@ def _is_between(value: object, low: float, high: float) -> bool:
 
 
 def yes_no_auto(option: str, word: str) -> Choice:
-    """What a word says of an option: True, False or "auto". Raises InputError."""
+    """The value of an option from a word: True, False or "auto". Raises InputError."""
     words: dict[str, Choice] = {"yes": True, "true": True, "no": False, "false": False, "auto": "auto"}
     if word.strip().lower() not in words:
         raise InputError(f"{option} must be yes, no or auto, got {word!r}")
@@ -84,7 +84,7 @@ def yes_no_auto(option: str, word: str) -> Choice:
 
 
 def smooth_choice(word: str) -> Smooth:
-    """What a word says about smoothing: no, auto or a length with its unit. Raises InputError."""
+    """The smoothing that a word asks for: none, auto or a length with its unit. Raises InputError."""
     plain = word.strip().lower()
     if plain in ("no", "false"):
         return False

@@ -12,7 +12,7 @@ _STDERR = 2
 
 @contextlib.contextmanager
 def without_backtrace() -> Iterator[None]:
-    """Leave out what a panic prints to stderr; whoever catches its exception says what is wrong.
+    """Leave out what a panic prints to stderr; whoever catches its exception states what is wrong.
 
     The file descriptor itself is turned for that time, as the library knows no other. What was printed without a
     panic follows at the end. Does nothing where the process has no stderr.

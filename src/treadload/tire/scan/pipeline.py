@@ -66,7 +66,7 @@ def read_scan(path: str | Path, options: ScanOptions | None = None) -> ScanSurfa
 
 
 def _without_clutter(mesh: Mesh, name: str) -> Iterator[tuple[Mesh, list[str]]]:
-    """The mesh without its floor, without small pieces, without both, and what to say of it. Raises GeometryError."""
+    """The mesh without its floor, without small pieces, without both; sentences about it. Raises GeometryError."""
     notes: list[str] = []
     rest = without_ground(mesh)
     if rest is not None:

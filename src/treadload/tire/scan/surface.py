@@ -150,7 +150,7 @@ class ScanSurface:
 
         The plane of first contact touches the tread without its noise (see first_contact); what stands above it
         counts as gap 0. Hits more than 45 mm below the crown are not tread. Holes take the median over the angle at
-        the same place across, as fill_holes says; with "auto", those in grooves round the tire always.
+        the same place across, by fill_holes; with "auto", those in grooves round the tire always.
         Raises GeometryError when holes remain where the contact will be, or when no cell meets the tread.
         """
         low, missing, predicted = self._cast(grid)

@@ -34,8 +34,8 @@ def unroll(surface: ScanSurface, theta: Array, y: Array) -> Array:
 def wear(new: ScanSurface, reference: ScanSurface) -> Wear:
     """What is gone of a tread since an earlier scan of the same tire.
 
-    Both are unrolled about their own axles. The earlier one enters by its median round the tire, as nothing tells how
-    far the wheel was turned between them: wear of ribs is mapped round the tire, of lugs and blocks on average.
+    Both are unrolled about their own axles. The earlier one enters by its median round the tire, as nothing records
+    how far the wheel was turned between them: wear of ribs is mapped round the tire, of lugs and blocks on average.
     It is shifted across and along the radius so that the grooves in both agree. Raises GeometryError when the radii
     differ by more than a tread is deep.
     """
