@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +32,10 @@ _WIDER = 0.07
 _INSIDE = 24
 # Points between the neighbours of the largest value, and how often they are taken closer.
 _FINER, _ZOOMS = 9, 2
+# Under a load that stands beyond the map, and so far beside it, points are so far apart, m: half of the mean's cube.
+_UNDER_LOADS, _BESIDE_LOADS = 0.005, 0.02
+# From a value on the border of a map of this part of its largest on, a larger one may lie just beyond.
+_RISING = 0.8
 # A value beyond the map this part of its largest may be larger between the points.
 _RIVAL = 0.97
 LARGER = 1 + 1e-5
@@ -165,16 +169,20 @@ def whole_basin(values: Array, x: Array, y: Array, field: FieldBeyond, reach: fl
 
     values, x, y: of the map, as `beyond_the_map` takes them. field: anywhere. reach: how far around the loads the
     basin is followed, m. So a largest value inside the map does not hide a larger one of the basin. Points between a
-    map that ends close to the loads and their basin cost most; they are evaluated where the largest value lies at the
-    end of the map, or the basin's comes near to it.
+    map that ends close to the loads and their basin cost most; they are evaluated where a load stands beyond the map,
+    a value on its border or in the basin comes near to its largest, or nothing in it is tensile.
     """
     *_, row, column = index_of_largest(values)
     axes, kept = (y, x), _kept((y, x), (row, column))
-    ends, most = bool(_ends(values, (y, x))), float(np.nanmax(values))
+    unmapped, most = field.unmapped(), float(np.nanmax(values))
+    ends = bool(unmapped) or bool(_ends(values, axes)) or _border(values) > _RISING * most
 
     def places(cells: tuple[float, float] | None = None) -> tuple[Array, ...]:
-        sides = zip(kept, axes, field.loaded, cells or (0.0, 0.0), strict=True)
-        return tuple(_around(inside, axis, loaded, reach, cell) for inside, axis, loaded, cell in sides)
+        sides = enumerate(zip(kept, axes, field.loaded, cells or (0.0, 0.0), strict=True))
+        under = [[load[axis] for load in unmapped] for axis in range(2)]
+        return tuple(
+            _around(inside, at, loaded, reach, cell, under[axis]) for axis, (inside, at, loaded, cell) in sides
+        )
 
     # Closed forms cost least on the lattice of the loads, waves on few points.
     at = places(None if ends else field.lattice)
@@ -204,10 +212,24 @@ def _by_depth(values: Array) -> Array:
     return largest
 
 
-def _around(inside: Array, axis: Array, loaded: tuple[float, float], reach: float, cell: float) -> Array:
+def _border(values: Array) -> float:
+    """The largest value (depth, y, x) on the border of a map, of those axes that have one; -inf for none."""
+    sides = [values.swapaxes(0, axis)[[0, -1]] for axis in (1, 2) if values.shape[axis] >= _MAP]
+    return max((float(np.nanmax(side)) for side in sides), default=-np.inf)
+
+
+def _around(
+    inside: Array,
+    axis: Array,
+    loaded: tuple[float, float],
+    reach: float,
+    cell: float,
+    under: Sequence[tuple[float, float]],
+) -> Array:
     """Points of an axis of a map with others as far as a reach around loads, m; of a few places those alone.
 
-    cell: m, of a lattice that starts where loads start, on which all points stand then; 0 for none.
+    cell: m, of a lattice that starts where loads start, on which all points stand then; 0 for none. under: from where
+    to where loads stand under which points stand closer.
     """
     if len(axis) < _MAP:
         return inside
@@ -220,7 +242,9 @@ def _around(inside: Array, axis: Array, loaded: tuple[float, float], reach: floa
     points = np.unique(np.concatenate(every))
     points = points[(points < axis[0] - 0.5 * _CLOSEST) | (points > axis[-1] + 0.5 * _CLOSEST)]
     points = points[np.diff(points, prepend=-np.inf) > 0.5 * _CLOSEST]
-    return np.union1d(inside, points)
+    # A load beside the map stands at the map's own places along one axis.
+    closer = [np.arange(first - _BESIDE_LOADS, last + _BESIDE_LOADS, _UNDER_LOADS) for first, last in under]
+    return np.union1d(inside, np.concatenate([points, *closer]))
 
 
 def evaluated_further(response: Source, field: Field, means: Means | None) -> tuple[Field | None, Beyond | None]:

@@ -19,6 +19,9 @@ from treadload.response.loads import GridLoad, SurfaceLoad, UniformDisc, Uniform
 from treadload.response.means import Means
 from treadload.response.several import Question, components_of
 
+# Of places, m.
+_ROUND_OFF = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class FieldBeyond:
@@ -55,17 +58,20 @@ class FieldBeyond:
     @property
     def loaded(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """From where to where loads stand along y and along x, m."""
-        ends: list[tuple[tuple[float, float], tuple[float, float]]] = []
-        for load in _placed(self.response):
-            if isinstance(load, UniformDisc):
-                ends.append(
-                    ((load.y - load.radius, load.y + load.radius), (load.x - load.radius, load.x + load.radius))
-                )
-            else:
-                y, x = load.grid.y, load.grid.x
-                ends.append(((float(y[0]), float(y[-1])), (float(x[0]), float(x[-1]))))
-        along_y, along_x = zip(*ends, strict=True)
+        along_y, along_x = zip(*(_extent(load) for load in _placed(self.response)), strict=True)
         return _hull(along_y), _hull(along_x)
+
+    def unmapped(self) -> list[tuple[tuple[float, float], tuple[float, float]]]:
+        """From where to where, along y and along x, m, each load stands whose loaded cells reach beyond the map."""
+        ends = [self.field.data[name].to_numpy()[[0, -1]] for name in ("y", "x")]
+        return [
+            reach
+            for reach in map(_footprint, _placed(self.response))
+            if any(
+                low < first - _ROUND_OFF or high > last + _ROUND_OFF
+                for (low, high), (first, last) in zip(reach, ends, strict=True)
+            )
+        ]
 
     def values(self, x: Array, y: Array, *, near: bool = True) -> Array:
         """What is evaluated at x (mx,) and y (my,), m, (depth, y, x); NaN in the map where the loads are coarse.
@@ -138,6 +144,26 @@ class FieldBeyond:
 def _placed(response: Response) -> list[SurfaceLoad]:
     """The loads of a response, rectangles as cells."""
     return [load.cell if isinstance(load, UniformRectangle) else load for load in response.loads]
+
+
+def _extent(load: SurfaceLoad) -> tuple[tuple[float, float], tuple[float, float]]:
+    """From where to where a load stands along y and along x, m, with the cells of its grid that carry nothing."""
+    if isinstance(load, UniformDisc):
+        return (load.y - load.radius, load.y + load.radius), (load.x - load.radius, load.x + load.radius)
+    y, x = load.grid.y, load.grid.x
+    return (float(y[0]), float(y[-1])), (float(x[0]), float(x[-1]))
+
+
+def _footprint(load: SurfaceLoad) -> tuple[tuple[float, float], tuple[float, float]]:
+    """The same of the cells that carry something; those of the grid where none does."""
+    if isinstance(load, UniformDisc):
+        return _extent(load)
+    loaded = (load.array != 0).any(axis=0)
+    rows, columns = np.flatnonzero(loaded.any(axis=1)), np.flatnonzero(loaded.any(axis=0))
+    if not len(rows):
+        return _extent(load)
+    y, x = load.grid.y[rows[[0, -1]]], load.grid.x[columns[[0, -1]]]
+    return (float(y[0]), float(y[1])), (float(x[0]), float(x[1]))
 
 
 def _hull(ends: Sequence[tuple[float, float]]) -> tuple[float, float]:
