@@ -1,11 +1,19 @@
+import gc
 import os
 import time
 
 import pytest
 
-from cases import COARSE_CASE
-from treadload.case import Case
-from treadload.steps import run
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection():
+    """The garbage collector leaves out what is imported and collected: a million objects that stay to the end."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -40,6 +48,11 @@ class FailuresAtOnce:
 @pytest.fixture(scope="session")
 def coarse_result():
     """Result of the coarse case: driving, 12 mm cells."""
+    # Here, as the process that only hands out tests solves none.
+    from cases import COARSE_CASE
+    from treadload.case import Case
+    from treadload.steps import run
+
     return run(Case.from_text(COARSE_CASE))
 
 

@@ -1,5 +1,7 @@
 """Which libraries a command loads before it solves anything: the cost of a cold start."""
 
+import itertools
+import json
 import subprocess
 import sys
 
@@ -20,34 +22,60 @@ HEAVY = {
 CASE = ("numpy", "xarray")
 
 
-@pytest.mark.parametrize(
-    ("arguments", "may"),
-    [
-        (["--help"], set()),
-        (["--version"], set()),
-        (["init"], set()),
-        (["init", "life", "-o", "life.toml"], set()),
-        (["catalogue", "mixes"], {*CASE}),
-        (["criteria"], {*CASE}),
-        (["schema"], {*CASE, "h5py", "h5netcdf"}),
-        (["run", "case.toml", "--dry-run"], {*CASE, "h5py", "h5netcdf", "scipy.optimize"}),
-    ],
-    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+# In the order of what they may load, so that what a command loads may be seen by those after it, too.
+COMMANDS = (
+    (["--help"], set()),
+    (["--version"], set()),
+    (["init"], set()),
+    (["init", "life", "-o", "life.toml"], set()),
+    (["catalogue", "mixes"], {*CASE}),
+    (["criteria"], {*CASE}),
+    (["schema"], {*CASE, "h5py", "h5netcdf"}),
+    (["run", "case.toml", "--dry-run"], {*CASE, "h5py", "h5netcdf", "scipy.optimize"}),
 )
-def test_a_command_loads_what_it_needs(arguments, may, tmp_path):
-    code = f"""
-import sys
+# One after the other in one process, which writes after each what is loaded.
+DRIVER = """
+import json, sys
 from treadload.cli import main
-sys.argv = ["treadload", *{arguments!r}]
-try:
-    main()
-except SystemExit as end:
-    assert not end.code, end.code
-finally:
-    print(*[name for name in {sorted(HEAVY)!r} if name in sys.modules], file=sys.stderr)
+
+commands, heavy = json.loads(sys.argv[1])
+loaded = []
+for arguments in commands:
+    sys.argv = ["treadload", *arguments]
+    try:
+        main()
+    except SystemExit as end:
+        assert not end.code, end.code
+    loaded.append([name for name in heavy if name in sys.modules])
+print(json.dumps(loaded), file=sys.stderr)
 """
-    if "case.toml" in arguments:
-        subprocess.run([sys.executable, "-m", "treadload", "init"], cwd=tmp_path, check=True, capture_output=True)
-    ran = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, encoding="utf-8")
+
+
+@pytest.fixture(scope="module")
+def loaded(tmp_path_factory):
+    """Heavy modules that are loaded after each command and those before it."""
+    commands = json.dumps([[arguments for arguments, _ in COMMANDS], sorted(HEAVY)])
+    ran = subprocess.run(
+        [sys.executable, "-c", DRIVER, commands],
+        cwd=tmp_path_factory.mktemp("commands"),
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+    )
     assert ran.returncode == 0, ran.stderr
-    assert set(ran.stderr.splitlines()[-1].split()) <= may
+    return [set(names) for names in json.loads(ran.stderr.splitlines()[-1])]
+
+
+@pytest.mark.parametrize("number", range(len(COMMANDS)), ids=[" ".join(arguments) for arguments, _ in COMMANDS])
+def test_a_command_loads_what_it_needs(number, loaded):
+    assert loaded[number] <= COMMANDS[number][1]
+
+
+def test_commands_that_may_load_less_run_first():
+    allowed = [may for _, may in COMMANDS]
+    assert all(before <= after for before, after in itertools.pairwise(allowed))
+
+
+def test_a_loaded_module_is_seen(loaded):
+    """The last command reads a case, for which numbers are needed."""
+    assert "numpy" in loaded[-1]

@@ -11,11 +11,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from typer.testing import CliRunner
 
 import treadload as tl
 from cases import BASE_AND_SOIL, ONE_AXLE
 from faults.kills import CALIBRATION
 from tire_meshes import tire_mesh
+from treadload.cli.commands import app
 
 COARSE = (Path(__file__).parents[1] / "faults" / "case.toml").read_text(encoding="utf-8")
 FATIGUE = '[damage]\nfatigue = { epsilon_6 = "120 microstrain", slope = -0.2 }\n'
@@ -32,8 +34,8 @@ COMMANDS = {
     "scan": "scan wheel.ply -q --units m --spacing 12mm -o scan.nc",
     "calibrate": "calibrate calibrate.toml -q -o calibrate.nc",
 }
-# Processes of a study, calibrations and lives are tried by the slow test.
-QUICK = ("run", "export")
+# Processes of a study, calibrations and lives are tried by the slow test, and so are long paths under C.
+QUICK, QUICK_WORLD = ("run", "export"), "a German of Nepal without a home"
 # One command after another in one process, which is told how processes start and whether C writes decimal commas.
 DRIVER = """
 import contextlib, io, json, locale, multiprocessing, os, shlex, sys
@@ -70,14 +72,22 @@ USUAL = {"LC_ALL": "C.UTF-8", "TZ": "UTC", "PYTHONHASHSEED": "0", "OMP_NUM_THREA
 
 
 @pytest.fixture(scope="module")
-def inputs(tmp_path_factory):
-    """A folder with what the commands read."""
+def case(tmp_path_factory):
+    """A folder with a case."""
+    folder = tmp_path_factory.mktemp("case")
+    (folder / "case.toml").write_text(COARSE + FATIGUE, encoding="utf-8")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def inputs(case, tmp_path_factory):
+    """A folder with what all commands read."""
     import trimesh
 
     from sweeps import CASE, PRINT
 
     folder = tmp_path_factory.mktemp("inputs")
-    (folder / "case.toml").write_text(COARSE + FATIGUE, encoding="utf-8")
+    shutil.copy(case / "case.toml", folder)
     (folder / "life.toml").write_text(ONE_AXLE + BASE_AND_SOIL, encoding="utf-8")
     (folder / "calibrate.toml").write_text(CALIBRATION, encoding="utf-8")
     (folder / "small.toml").write_text(CASE.replace("print.csv", "small.csv"), encoding="utf-8")
@@ -91,15 +101,8 @@ def inputs(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def usual(inputs, tmp_path_factory):
-    """What the commands give in usual surroundings; of each set of them once."""
-    made = {}
-
-    def of(names):
-        if names not in made:
-            made[names] = given(inputs, tmp_path_factory.mktemp("usual") / "here", names, {}, "spawn")
-        return made[names]
-
-    return of
+    """What all commands give in usual surroundings."""
+    return given(inputs, tmp_path_factory.mktemp("usual") / "here", tuple(COMMANDS), {}, "spawn")
 
 
 @pytest.fixture(scope="module")
@@ -169,18 +172,35 @@ def check(one, other):
         assert alike, name
 
 
-@pytest.mark.parametrize("world", WORLDS)
-def test_the_same_numbers_everywhere(tmp_path, inputs, usual, german, world):
-    tried(tmp_path, inputs, usual, german, world, QUICK)
+def test_the_same_numbers_everywhere(tmp_path, case, german):
+    """Two commands in a process of other surroundings, and in this one in the usual ones."""
+    there = given_in_a_world(tmp_path, case, german, QUICK_WORLD, QUICK)
+    folder = tmp_path / "usual"
+    shutil.copytree(case, folder)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        for name, value in USUAL.items():
+            patch.setenv(name, value)
+        printed = {name: output_of(COMMANDS[name]) for name in QUICK}
+    written = {name: contents(folder / COMMANDS[name].split()[-1]) for name in QUICK}
+    check(there, (printed, written))
+
+
+def output_of(line):
+    """What a command prints in this process."""
+    ran = CliRunner().invoke(app, line.split())
+    assert (ran.exit_code, ran.stderr) == (0, "")
+    return words(ran.stdout)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("world", WORLDS)
 def test_every_command_gives_the_same_everywhere(tmp_path, inputs, usual, german, world):
-    tried(tmp_path, inputs, usual, german, world, tuple(COMMANDS))
+    check(given_in_a_world(tmp_path, inputs, german, world, tuple(COMMANDS)), usual)
 
 
-def tried(tmp_path, inputs, usual, german, world, names):
+def given_in_a_world(tmp_path, inputs, german, world, names):
+    """What commands give in a world, whose decimal mark of C is that of its language."""
     changes, path, method = WORLDS[world]
     if changes["LC_ALL"].startswith("de"):
         if not german:
@@ -190,7 +210,7 @@ def tried(tmp_path, inputs, usual, german, world, names):
     folder.parent.mkdir(parents=True, exist_ok=True)
     there = given(inputs, folder, names, changes, method)
     assert there[2] == ("," if german and changes["LC_ALL"].startswith("de") else ".")
-    check(there, usual(names))
+    return there
 
 
 @pytest.mark.slow

@@ -1,5 +1,6 @@
 """The JSON schema of a case, and the case to start from."""
 
+import functools
 import json
 import re
 import tomllib
@@ -21,6 +22,7 @@ FILES = [*(ROOT / "examples").rglob("*.toml"), *(ROOT / "src/treadload/demo").gl
 CASES = sorted(path for path in FILES if path.name != "pyproject.toml")
 
 
+@functools.cache
 def validator(kind):
     return jsonschema.Draft202012Validator(json_schema(kind))
 

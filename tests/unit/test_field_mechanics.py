@@ -82,6 +82,7 @@ def test_thermal_stress_is_a_part_of_its_own():
 
 
 def test_a_run_resumes(tmp_path, monkeypatch, solved):
+    """One more section is solved here, for the same numbers as beside others; what follows takes those solved."""
     file = tmp_path / "sections.json"
     steps_done = []
     first = predict_damage((THICK,), QUICK, kept=file, workers=1, progress=lambda *what: steps_done.append(what))

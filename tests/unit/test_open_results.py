@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from PIL import Image
 
 import treadload as tl
 from cases import BASE_AND_SOIL, COARSE_CASE, ONE_AXLE
@@ -600,7 +601,11 @@ def test_every_result_is_reported(saved, tmp_path, monkeypatch):
     assert "could not be drawn" not in page
     for text in result.warnings:
         assert text.replace("'", "&#39;").replace('"', "&#34;") in page or text in page
+    # The same fields from a file: its figures are drawn, and not made into pixels once more.
+    dot = Image.new("RGB", (1, 1))
+    monkeypatch.setattr("treadload.reporting.pictures.raster", lambda figure, **_: dot)
     again = tl.report(opened, tmp_path / "again.html").read_text()
+    assert "could not be drawn" not in again
     assert page.count("<figure") == again.count("<figure") > 0
 
 
