@@ -11,6 +11,7 @@ import treadload as tl
 from treadload.catalogue import belts
 from treadload.contact.bodies import HalfSpaces, Influence, Offsets, surface_of
 from treadload.contact.bodies.belt import belt_surface
+from treadload.contact.cautions import of_tire
 from treadload.errors import InputError
 from treadload.kernels.belt import Sheet, coefficients, string
 from treadload.tire import LateralBelt, ProfileSurface, TreadProfile
@@ -330,7 +331,7 @@ def test_the_arc_of_a_tread_is_found_between_its_grooves():
 def test_belts_of_the_catalogue_are_those_of_the_defaults():
     known = tl.tire.Belt.from_library("315/80 R22.5")
     assert known is belts["315/80R22.5"]
-    assert replace(known, lateral=None, name="", source="", caveats=()) == tl.tire.Belt()
+    assert replace(known, lateral=None, ribs=None, name="", source="", caveats=()) == tl.tire.Belt()
     assert known.caveats
     assert "Project Chrono" in known.source
 
@@ -361,3 +362,14 @@ def test_a_case_names_its_belt(tmp_path):
         tl.Case.from_text(text.format(belt=both))
     with pytest.raises(InputError, match="a belt carries by its inflation"):
         tl.Case.from_text(text.format(belt='belt = "315/80R22.5"').replace('inflation_pressure = "8.2 bar"', ""))
+
+
+@pytest.mark.parametrize("name", [name for name in belts if belts[name].ribs is not None])
+def test_ribs_on_a_belt_of_the_catalogue_are_of_rubber_and_a_layer_is_not(name):
+    profile = f"{name} tread" if name == "335/65R22.5" else name
+    layer = tl.Tire.from_profile(profile, inflation_pressure=8e5, belt=belts[name])
+    ribs = replace(layer, tread="ribs")
+    assert layer.belt.tread.poisson == belts[name].tread.poisson < 0.48
+    assert ribs.belt.tread.poisson == 0.495
+    assert not [text for text in of_tire(ribs) if "Poisson" in text]
+    assert any("Poisson" in text for text in of_tire(replace(ribs, belt=replace(belts[name], ribs=None))))

@@ -193,6 +193,8 @@ def solve_pitch(
     tolerance, road_compliance, tell = how.tolerance, how.road_compliance, how.tell
     _check(rolling, positions, tolerance, periodic)
     tread = lugged_tread(tire, tuple(lateral))
+    assert tire.belt is not None
+    tire = replace(tire, belt=tire.belt.under_ribs())
     inflated = tire.carcass
     assert isinstance(inflated, InflatedBelt)
     if not isinstance(inflated.belt.tread, Elastic):
@@ -357,7 +359,7 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
     if poisson < _RUBBER:
         warnings.append(
             f"the blocks have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; "
-            f"rubber has {_RUBBER:g} to 0.4999: give the tread of the belt Elastic(modulus, 0.495)"
+            f"rubber has {_RUBBER:g} to 0.4999: give the belt ribs = Elastic(modulus, 0.495)"
         )
     if window.pattern.is_joined:
         warnings.append(

@@ -67,7 +67,7 @@ class PitchStep(Step, name="pitch"):
         if case.tire.belt is None:
             raise ValueError('[pitch] has blocks on a belt: give tire.belt, such as "315/80R22.5"')
         belt = case.tire._belt()
-        if belt is not None and isinstance(belt.tread, Prony):
+        if belt is not None and isinstance(belt.under_ribs().tread, Prony):
             raise ValueError("[pitch] takes elastic rubber; give the tread of the belt an elastic modulus")
         if case.build_rolling().law.needs_speed:
             raise ValueError("[pitch] does not follow friction that falls with slip; give a number")

@@ -47,6 +47,9 @@ class Belt:
     """A tread layer bonded to a tensioned, bending belt on sidewalls.
 
     tread: of the layer between the road and the belt, elastic or, for steady rolling, viscoelastic.
+    ribs: rubber of ribs and blocks with free sides, which a tire with tread = "ribs" takes in place of tread; left
+    out, that of tread. A layer without grooves has a smaller Poisson's ratio than its rubber, since it stands for ribs
+    that bulge into their grooves as well.
     tread_thickness: m, ribs and undertread. foundation: what the sidewalls hold against a deflection of the belt, per
     unit of inflation pressure, 1/m; sidewall_stiffness: the part without inflation, Pa/m.
     meridional: tension across per inflation pressure, m: (ρ² - ρ_w²)/(2ρ) of the crown's and the widest radius.
@@ -71,6 +74,7 @@ class Belt:
     crown_radius: Radius | None = None
     belt_radius: Radius | None = None
     lateral: LateralBelt | None = None
+    ribs: Elastic | Prony | None = None
     name: str = ""
     source: str = field(default="", repr=False)
     caveats: tuple[str, ...] = field(default=(), repr=False)
@@ -80,6 +84,8 @@ class Belt:
         object.__setattr__(self, "caveats", tuple(self.caveats))
         if not isinstance(self.tread, Elastic | Prony):
             raise InputError(f"belt: the tread must be an Elastic or a Prony, got {self.tread!r}")
+        if self.ribs is not None and not isinstance(self.ribs, Elastic | Prony):
+            raise InputError(f"belt: the ribs must be an Elastic or a Prony, got {self.ribs!r}")
         if not _THINNEST <= self.tread_thickness <= _THICKEST:
             raise InputError(
                 f"belt: tread_thickness must lie between {_THINNEST * 1e3:g} mm and {_THICKEST:g} m, got "
@@ -119,6 +125,14 @@ class Belt:
     def from_library(cls, name: str) -> Belt:
         """The belt of this name in the catalogue, e.g. "315/80R22.5". Raises InputError when it is not there."""
         return belts[name]
+
+    def under_ribs(self) -> Belt:
+        """The belt whose tread is the rubber of ribs and blocks.
+
+        >>> Belt.from_library("315/80R22.5").under_ribs().tread.poisson
+        0.495
+        """
+        return self if self.ribs is None else replace(self, tread=self.ribs, ribs=None)
 
     def worn(self, wear: float | str) -> Belt:
         """The belt below a tread that `wear`, m, has been worn off: thickness and arm are smaller by it.

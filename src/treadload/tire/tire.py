@@ -100,6 +100,7 @@ class Tire:
                 raise InputError(
                     'tread = "ribs" stands on a belt: give belt, such as Belt.from_library("315/80R22.5")'
                 )
+            object.__setattr__(self, "belt", self.belt.under_ribs())
             self._check_ribs()
         elif self.undertread is not None:
             raise InputError(
