@@ -2,7 +2,7 @@
 
 One rib that is pressed; five ribs that roll, against the layer and against what was published, over load, pressure,
 friction and wear; what they do to the surface of a road, cold and hot. The figures and the numbers of the tables of
-`docs/explanation/ribs_evidence.md`: a minute and a half of one processor, and another the first time, for the
+`docs/notes/ribs_evidence.md`: a minute and a half of one processor, and another the first time, for the
 sections of worn ribs.
 
     python examples/ribs/run.py [folder] [--coarse]

@@ -15,7 +15,7 @@ SHALLOW = 0.02
 # microstrain, on asphalt of 5.4 GPa and on a French structure at 40 °C, and how many times fewer load repetitions
 # that allows at a slope of -0.2, with as many digits as cells allow. By how much at most, microstrain, the largest
 # strain at places with a tensile principal stress fell, at 10 to 40 °C and driven with 10 kN as well.
-# `examples/ribs/run.py` prints them, docs/explanation/ribs_evidence.md shows them over temperature.
+# `examples/ribs/run.py` prints them, docs/notes/ribs_evidence.md shows them over temperature.
 STRAINS = ((27, 45), (33, 121))
 FEWER = (10, 700)
 EVALUATED = 5
