@@ -30,7 +30,15 @@ def one_line(text: str) -> str:
 
 
 class InputError(TreadloadError, ValueError):
-    """A value from the user is outside its bounds, missing, or cannot be read."""
+    """A value from the user is outside its bounds, missing, or cannot be read.
+
+    >>> try:
+    ...     tl.Elastic(-1.0, 0.3)
+    ... except tl.InputError as error:
+    ...     print(error)
+    ...
+    modulus must be a positive number of Pa, got -1; asphalt is near 5.4e9
+    """
 
 
 class WriteError(InputError):

@@ -21,6 +21,10 @@ class Grid:
     nx, ny: number of cells along x (travel) and y (right).
     dx, dy: cell size, m.
     x0, y0: centre of the first cell, m.
+
+    >>> grid = tl.response.Grid.centred(0.1, 0.1, 0.01)
+    >>> grid.shape
+    (10, 10)
     """
 
     nx: int

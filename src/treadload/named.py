@@ -52,6 +52,11 @@ class Catalogue(Mapping[str, Item]):
     noun: one of them in words. kinds: their classes. folder: of our data files, in `catalogue/data`. read: gives the
     things of one file. words: what one is, in a line. use: how a case names one. prefix: of names, which may be left
     out. group: of entry points; an entry point is a function without arguments that returns an iterable of more.
+
+    >>> "GB3" in tl.catalogue.mixes
+    True
+    >>> tl.catalogue.tires["315/80R22.5"].name
+    '315/80R22.5'
     """
 
     def __init__(

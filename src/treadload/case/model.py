@@ -20,7 +20,16 @@ from treadload.read.table import first_words
 
 
 class Case(Description):
-    """Everything that a computation needs, checked: what it describes, and the tables of steps, which it asks for."""
+    """Everything that a computation needs, checked: what it describes, and the tables of steps, which it asks for.
+
+    >>> case = tl.Case.from_text('''
+    ... tire = { profile = "315/80R22.5", inflation_pressure = "8.2 bar" }
+    ... rolling = { normal_load = "32.5 kN", friction = 0.7 }
+    ... pavement = { structure = "6 BBSG3 / 15 GB3 / PF3", temperature = "15 degC" }
+    ... ''')
+    >>> case.rolling.normal_load
+    32500.0
+    """
 
     def __init__(self, /, **tables: object) -> None:
         type(self).take_steps(tables)

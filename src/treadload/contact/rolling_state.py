@@ -34,6 +34,10 @@ class Rolling:
     creepage_y: velocity of the tire relative to the road to the right, over V.
     spin: turn slip 1/R_path plus `Tire.camber_spin`, about z (down), rad/m. speed: of rolling, m/s; friction that
     falls with slip or heat needs it, and so does power in W.
+
+    >>> wheel = tl.Rolling(normal_load=32.5e3, tractive_force=10e3, friction=0.7)
+    >>> wheel.tractive_force
+    10000.0
     """
 
     normal_load: Force | None = None

@@ -42,6 +42,9 @@ class Season:
     divided below a profile, m; left out, by the rule of `pavement.divided`. ageing: of the mixes, over depth.
     factors: on the moduli of elastic and stress-dependent layers, by their names, as of frost, thaw and moisture; a
     mapping is taken, too. Raises InputError.
+
+    >>> tl.damage.Season("summer", 0.25, 25.0).temperature
+    25.0
     """
 
     name: str
@@ -134,6 +137,10 @@ class Climate:
     below a weather the mean day of every month, from which figures are drawn and daily thermal stress follows.
     thermal: how that stress counts; None for not at all. frost: in the unbound layers by days, from which figures are
     drawn; its factors stand in the seasons. Raises InputError.
+
+    >>> climate = tl.damage.Climate.constant(15.0)
+    >>> climate.seasons[0].temperature
+    15.0
     """
 
     seasons: tuple[Season, ...]

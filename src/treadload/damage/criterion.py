@@ -58,6 +58,9 @@ class Criterion:
     An extension at the top of a layer counts only where a principal stress is tensile: no crack opens elsewhere.
     Raises InputError for a law at a place that it does not apply to: one of the bottom of the asphalt, of the
     surface, of the top of the subgrade, of a bond.
+
+    >>> tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1).name
+    'base'
     """
 
     name: str

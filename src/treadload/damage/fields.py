@@ -25,6 +25,9 @@ def known_quantities() -> dict[str, Quantity]:
     """Quantities by their names that a response gives anywhere in the road, without anything else being given.
 
     Ours, and what this session registered; those of other packages are looked up by name.
+
+    >>> "mazars_strain" in tl.damage.known_quantities()
+    True
     """
     makers = (QUANTITIES.find(name).target for name in QUANTITIES.built_in())
     instances = [make() for make in makers if not _needs_more(make)]
@@ -39,6 +42,13 @@ def compute_quantities(response: Source, quantities: Sequence[str | Quantity] | 
     Returns a dataset of one variable each over (depth, y, x): strains, Pa, J/m³; "dissipated_energy" over (depth, y)
     is that of one passage and belongs to responses of moving wheels on viscoelastic roads.
     Raises InputError for an unknown name, and for a quantity whose fields the response lacks.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> at = [-0.05, 0.0, 0.05]
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=at, y=at)
+    >>> fields = tl.damage.compute_quantities(response)
+    >>> f"{float(fields.in_plane_extension.max()) * 1e6:.0f} microstrain"
+    '269 microstrain'
     """
     data = gridded(response)
     if quantities is None:

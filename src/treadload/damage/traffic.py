@@ -43,6 +43,9 @@ class AxleClass:
     as that of one of dual wheels is: their contact is a mirror image, which shows where a tread is not symmetric.
     frequency: the rule by which the class reads moduli at its own speed; None for those of the road as it is given.
     Raises InputError.
+
+    >>> tl.damage.AxleClass("bus", 1.0, wheel_load=35e3, inflation_pressure=8e5).wheel_load
+    35000.0
     """
 
     name: str
@@ -88,6 +91,9 @@ class Wander:
     offsets: m, increasing. shares: of the passes at each offset, summing to 1; none at all for a normal law.
     deviation: standard deviation of a normal law, m, >= 0; 0 for wheels that never wander.
     Build it with none, normal or measured. Raises InputError.
+
+    >>> tl.damage.Wander.normal(0.2)
+    Wander(deviation=0.2, offsets=(), shares=())
     """
 
     deviation: Length = 0.0
@@ -188,6 +194,10 @@ class Traffic:
     designed, > 0, or None. standard_axle: in whose passes the traffic is stated. growth_years: for which it grows
     from the opening, >= 1, and stays as it is from then on; left out, `GROWS` or its design life, whichever is
     longer. Raises InputError.
+
+    >>> bus = tl.damage.AxleClass("bus", 1.0, wheel_load=35e3, inflation_pressure=8e5)
+    >>> tl.damage.Traffic((bus,), passes_per_year=1e5, growth=0.02).passes_per_year
+    100000.0
     """
 
     classes: tuple[AxleClass, ...]

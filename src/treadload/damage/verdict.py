@@ -200,6 +200,14 @@ def assess(
     it of across transverse, else oblique; a plane nearer to the horizontal than 45° is horizontal.
     Returns a Verdict. Raises InputError for an unknown depth, strain or tolerance, for a law that reads something
     else, for a response without its road, and for a shifted contact of a response that is local or a mean already.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> at = [-0.05, 0.0, 0.05]
+    >>> plate = tl.UniformDisc(0.15, 700e3)
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=at, y=at, side="above")
+    >>> result = tl.assess(response, tl.FatigueLine(epsilon_6=120e-6, slope=-0.2), depth=0.15)
+    >>> f"{float(result.dataset.worst_strain) * 1e6:.0f} microstrain"
+    '269 microstrain'
     """
     if strain is not None:
         check_reading(strain)

@@ -22,6 +22,10 @@ class Elastic:
 
     modulus: Young's modulus, Pa, > 0.
     poisson: Poisson's ratio, in (-1, 0.5].
+
+    >>> steel = tl.Elastic(210e9, 0.3)
+    >>> f"{steel.shear_modulus:.3g} Pa"
+    '8.08e+10 Pa'
     """
 
     modulus: Modulus

@@ -77,6 +77,9 @@ class VonMises:
     and saturates at c / g. Raises InputError.
 
     Sources: Prager (1956), J. Appl. Mech. 23, 493-496; Armstrong & Frederick (1966), CEGB report RD/B/N 731.
+
+    >>> tl.materials.VonMises(0.4e6, hardening=60e6)
+    VonMises(yield_stress=4e5, hardening=6e7)
     """
 
     yield_stress: Pressure | Swift

@@ -35,6 +35,10 @@ class StressDependent:
     and deviator stress do not fall below in the law, Pa. sublayer: greatest thickness of the parts into which a layer
     is divided over depth, m; left out, the rule of `pavement.stress_sublayers`. factor: on the modulus of the law,
     as of moisture or season. Raises InputError.
+
+    >>> base = tl.materials.StressDependent(tl.materials.Uzan(k1=90e6, k2=0.5, k3=-0.1), poisson=0.35)
+    >>> base.poisson
+    0.35
     """
 
     law: ModulusLaw

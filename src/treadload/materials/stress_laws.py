@@ -45,6 +45,10 @@ class KTheta:
     k1: modulus at the reference, Pa. k2: exponent, 0.3 to 0.7 of granular materials. reference: of stress, Pa; a law
     in psi has 1 psi. Raises InputError.
     Source: Hicks & Monismith (1971), Highway Research Record 345, 15-31.
+
+    >>> law = tl.materials.KTheta(k1=90e6, k2=0.5)
+    >>> law.k2
+    0.5
     """
 
     k1: Modulus
@@ -73,6 +77,9 @@ class Uzan:
     k1: modulus at the reference, Pa. k2, k3: exponents of bulk and of deviator stress. reference: of stress, Pa; a
     law in psi has 1 psi. Raises InputError.
     Source: Uzan (1985), Transportation Research Record 1022, 52-59.
+
+    >>> tl.materials.Uzan(k1=90e6, k2=0.5, k3=-0.1).k3
+    -0.1
     """
 
     k1: Modulus
@@ -103,6 +110,9 @@ class Universal:
     k1: without dimension, > 0. k2: exponent of bulk stress, ≥ 0. k3: exponent of shear, ≤ 0. reference: pₐ, Pa.
     Raises InputError.
     Source: NCHRP project 1-28A; Andrei, Witczak, Schwartz & Uzan (2004), Transportation Research Record 1874, 29-37.
+
+    >>> tl.materials.Universal(k1=1000.0, k2=0.6, k3=-0.2).k1
+    1000.0
     """
 
     k1: Number
@@ -189,6 +199,10 @@ class Bilinear:
     modulus per fall of the deviator stress below the break, >= 0. slope_above: its fall per rise above, >= 0.
     least, largest: bounds of the modulus, Pa; left out, a tenth and ten times that at the break. Raises InputError.
     Source: Thompson & Robnett (1979), Transportation Engineering Journal ASCE 105, 71-89.
+
+    >>> law = tl.materials.Bilinear(break_modulus=50e6, break_deviator=43e3, slope_below=1110, slope_above=178)
+    >>> law.break_modulus
+    50000000.0
     """
 
     break_modulus: Modulus

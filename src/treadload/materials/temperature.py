@@ -66,6 +66,10 @@ class WLF:
     Raises InputError.
 
     Source: Williams, Landel & Ferry (1955), J. Am. Chem. Soc. 77, 3701-3707.
+
+    >>> shift = tl.materials.WLF(c1=19.0, c2=150.0, reference=15.0)
+    >>> f"{shift.factor(25.0):.3g}"
+    '0.0649'
     """
 
     c1: Number
@@ -121,6 +125,10 @@ class Arrhenius:
     """ln aT = Eₐ/R (1/T - 1/Tᵣ), with absolute temperatures.
 
     activation_energy: Eₐ, J/mol, > 0. reference: Tᵣ, °C. Raises InputError.
+
+    >>> shift = tl.materials.Arrhenius(200e3, reference=15.0)
+    >>> f"{shift.factor(25.0):.3g}"
+    '0.0608'
     """
 
     activation_energy: MolarEnergy

@@ -41,6 +41,10 @@ class Prony:
     Raises InputError.
 
     Source: Park & Schapery (1999), Int. J. Solids Struct. 36, 1653-1675 (interconversion).
+
+    >>> rubber = tl.materials.Prony(3e6, ((0.5, 0.1),), 0.49)
+    >>> rubber.poisson
+    0.49
     """
 
     modulus: Modulus

@@ -30,6 +30,10 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
     viscoelastic material are bituminous; unbound and hydraulic materials of the catalogue and elastic ones below 700
     MPa are not. Above, the modulus does not decide. Raises InputError for a neighbour of which it is not known, and a
     layer that is not bituminous or is semi-infinite.
+
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> round(tl.pavement.bituminous_thickness(road, 1), 3)
+    0.21
     """
     number = _number(road, layer)
     course = road.layers[number]
@@ -50,7 +54,11 @@ def bituminous_thickness(road: Pavement, layer: int) -> float:
 
 
 def is_bituminous(material: Material | TemperatureDependent | StressDependent) -> bool | None:
-    """Whether a material is bituminous; None where it cannot be known, see `bituminous_thickness`."""
+    """Whether a material is bituminous; None where it cannot be known, see `bituminous_thickness`.
+
+    >>> tl.pavement.is_bituminous(tl.catalogue.mixes["GB3"])
+    True
+    """
     if isinstance(material, Unbound | HydraulicMix | StressDependent | AtStress):
         return False
     if isinstance(material, AnyElastic):

@@ -77,6 +77,9 @@ class HalfBonded(BondLaw):
     All half-bonded interfaces of a road are bonded in the one and frictionless in the other.
     Source: semi-bonded interfaces of NF P98-086; the rule reproduces both stresses of its table I.5, quoted by a
     secondary source.
+
+    >>> tl.pavement.HalfBonded()
+    HalfBonded()
     """
 
     @property

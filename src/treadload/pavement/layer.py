@@ -25,6 +25,9 @@ class Layer:
     its stress is.
     thickness: m; None for the last layer, which is semi-infinite. name: free text. bond: to the layer below, BONDED,
     FRICTIONLESS or Bond(stiffness=...).
+
+    >>> tl.Layer(tl.Elastic(5e9, 0.35), 0.15, name="asphalt").thickness
+    0.15
     """
 
     material: Material | TemperatureDependent | ElastoPlastic | StressDependent

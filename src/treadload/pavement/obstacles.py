@@ -23,6 +23,9 @@ class RoadStep:
 
     rise: of the road beyond it above the road before it, m; negative where it drops. chamfer: length of the even
     slope between them, m, its middle at x = 0; 0 for an upright edge.
+
+    >>> tl.pavement.RoadStep(0.01).rise
+    0.01
     """
 
     rise: Length
@@ -57,6 +60,9 @@ class RoadJoint:
 
     width: at its walls, m. depth: of its floor, or of the sealant in it, below the road, m. chamfer: leg of the
     45° chamfers of its edges, m, on both sides of the width.
+
+    >>> tl.pavement.RoadJoint(0.018, 0.03, chamfer=0.006).width
+    0.018
     """
 
     width: Length
@@ -101,6 +107,9 @@ class RoadPlate:
     rise: above the road, m; negative where it is sunk. length: along travel, m. width: across, m; left out, the
     whole road, as a bump or a dip does. round: a disc of diameter `length`. chamfer: of its edge, m, an even slope
     whose middle is the edge.
+
+    >>> tl.pavement.RoadPlate(0.01, length=0.6, width=0.6).rise
+    0.01
     """
 
     rise: Length

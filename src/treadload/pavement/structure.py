@@ -29,6 +29,12 @@ class Pavement:
 
     layers: from the surface down. rigid_base: True if the last layer, then with a thickness, is bonded to rock
     that does not move. Raises InputError for a missing or surplus thickness and a bond below the last layer.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> len(road.layers)
+    2
+    >>> tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15).layers[1].name
+    'EB-GB3'
     """
 
     layers: tuple[Layer, ...]

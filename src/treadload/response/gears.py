@@ -42,6 +42,10 @@ def dual_wheels(load: Load, spacing: float, *, mirrored: bool | None = None) -> 
     1 % of its weight, which a mirror would reverse; for the pair in a bend solve the turned tire too and
     `place_load` both. A symmetric tire that rolls straight gives two equal loads either way.
     Raises InputError for a wrong spacing.
+
+    >>> wheels = tl.response.dual_wheels(tl.UniformDisc(0.125, 662e3), 0.375)
+    >>> [round(wheel.y, 4) for wheel in wheels]
+    [-0.1875, 0.1875]
     """
     positive("the spacing of dual wheels", spacing, "metres", "trucks have near 0.35")
     turned = not any(_leans(wheel) for wheel in _each(load)) if mirrored is None else mirrored
@@ -73,6 +77,10 @@ def axle(load: Load | Sequence[Load], track: float, dual_spacing: float | None =
     load: the right wheel, centred at y = 0. track: between the centres of the wheels, or of the pairs of dual
     wheels, m, > 0. dual_spacing: between the centres of dual wheels, m, smaller than the track; None: single
     wheels. Raises InputError for a wrong length.
+
+    >>> wheels = tl.response.axle(tl.UniformDisc(0.125, 662e3), 1.8)
+    >>> len(wheels)
+    2
     """
     positive("the track of an axle", track, "metres", "trucks have near 2")
     wheels = gather(load)
@@ -89,6 +97,10 @@ def tandem(loads: Load | Sequence[Load], wheelbase: float, axles: int = 2) -> tu
 
     loads: one axle, or one wheel. wheelbase: between neighbouring axles, m, > 0. axles: 2 for a tandem, 3 for a
     tridem. Raises InputError for a wrong length or number.
+
+    >>> wheels = tl.response.tandem(tl.UniformDisc(0.125, 662e3), 1.31)
+    >>> len(wheels)
+    2
     """
     positive("the wheelbase", wheelbase, "metres", "a tandem has near 1.3")
     if isinstance(axles, bool) or not isinstance(axles, int) or axles < 1:

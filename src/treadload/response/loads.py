@@ -230,6 +230,10 @@ class UniformDisc:
     """Uniform pressure on a disc.
 
     radius: m, > 0. pressure: Pa, >= 0. x, y: centre, m. Raises InputError for a wrong value.
+
+    >>> disc = tl.UniformDisc(radius=0.15, pressure=700e3)
+    >>> f"{disc.pressure * 3.14159 * disc.radius**2 / 1e3:.1f} kN"
+    '49.5 kN'
     """
 
     radius: float
@@ -271,6 +275,10 @@ class UniformRectangle:
 
     length, width: along x and y, m, > 0. pressure: Pa, >= 0. x, y: centre, m. traction_x, traction_y: shear
     exerted by the tire on the road, Pa. Raises InputError for a wrong value.
+
+    >>> patch = tl.response.UniformRectangle(0.2, 0.15, 800e3)
+    >>> patch
+    UniformRectangle(length=0.2, width=0.15, pressure=800000.0, x=0.0, y=0.0, traction_x=0.0, traction_y=0.0)
     """
 
     length: float

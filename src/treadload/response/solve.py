@@ -78,6 +78,12 @@ def solve_response(
     Method: Love (1929) and Cerruti's solution by corner sums and FFT convolution, see `kernels.half_space.interior`;
     on layers the same with the top layer's material, plus wavenumbers, see `kernels.layers.layered`; under
     moving loads see `kernels.layers.moving`.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> plate = tl.UniformDisc(radius=0.15, pressure=700e3)
+    >>> response = tl.solve_response(plate, road, depths=[0.15], points=[[0.0, 0.0]])
+    >>> round(float(response.dataset.stress_zz.item()) / 1e3, 1)  # kPa, compression negative
+    -452.5
     """
     start = time.perf_counter()
     if side not in ("above", "below"):

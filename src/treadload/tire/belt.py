@@ -62,6 +62,10 @@ class Belt:
     Defaults: those of a 315/80R22.5, see `Belt.from_library` for where each comes from.
     Raises InputError when a number is out of bounds, for an arm longer than the tread is thick, and for a belt with
     neither tension nor bending across.
+
+    >>> belt = tl.tire.Belt.from_library("315/80R22.5")
+    >>> belt.foundation
+    3.6
     """
 
     tread: Elastic | Prony = TREAD

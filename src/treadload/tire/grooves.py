@@ -26,7 +26,7 @@ class Groove:
     rubber bridge between the walls above the floor of the groove, m, taken as continuous along travel; 0 for none.
     Raises InputError when the walls or the rounding do not fit, and for a tie bar as high as the groove is deep.
 
-    >>> groove = Groove(0.0, 0.010, 0.015, tie_bar=0.004)
+    >>> groove = tl.tire.Groove(0.0, 0.010, 0.015, tie_bar=0.004)
     >>> round(groove.clear_depth, 9)
     0.011
     """
@@ -129,6 +129,9 @@ def equal_ribs(
     """`number` equal grooves that leave number + 1 equal ribs on a tread of `tread_width`.
 
     Lengths in m, wall_angle in rad; tie_bar: height of a bar in every groove. Raises InputError when no rib is left.
+
+    >>> len(tl.tire.equal_ribs(0.25, 5, 0.010, 0.015))
+    5
     """
     rib = (tread_width - number * width) / (number + 1)
     if number < 0 or not rib > 0:

@@ -87,7 +87,11 @@ class _Mesh:
 
 
 def example_mesh() -> Path:
-    """Path of the truck tire mesh that ships with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it)."""
+    """Path of the truck tire mesh that ships with treadload (335/65R22.5, metres, BSD-3-Clause licence beside it).
+
+    >>> tl.example_mesh().exists()
+    True
+    """
     mesh = tires[EXAMPLE]
     assert isinstance(mesh, TireMesh)
     return mesh.path

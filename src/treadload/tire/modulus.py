@@ -45,6 +45,9 @@ def modulus_from_inflation(inflation_pressure: float) -> float:
     E [MPa] = 2.7e-3 p [kPa] + 0.7, so 820 kPa gives 2.914 MPa.
     Raises InputError outside these bounds.
     Source: Materials 2021, 14, 2117, equation 15.
+
+    >>> f"{tl.tire.modulus_from_inflation(820e3) / 1e6:.2f} MPa"
+    '2.91 MPa'
     """
     return 2.7 * check_inflation_pressure(inflation_pressure) + 0.7e6
 

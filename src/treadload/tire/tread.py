@@ -35,6 +35,10 @@ class TreadProfile:
     caveats: what is not certain about it, a sentence each. vehicle: kind that the tire is for, e.g. "truck or bus";
     a remedy by another tire stays within one kind.
     Raises InputError when a number is out of bounds or a groove leaves the tread.
+
+    >>> tread = tl.tire.TreadProfile(rolling_radius=0.5, crown_radius=0.8, width=0.25)
+    >>> tread.width
+    0.25
     """
 
     rolling_radius: Length

@@ -101,7 +101,11 @@ FRICTION.makes(FrictionLaw)
 
 @dataclass(frozen=True)
 class Coulomb(FrictionLaw):
-    """Coulomb's law: one coefficient μ ≥ 0 for stick and slip, everywhere."""
+    """Coulomb's law: one coefficient μ ≥ 0 for stick and slip, everywhere.
+
+    >>> tl.contact.friction.Coulomb(0.7).largest
+    0.7
+    """
 
     number: float
 
@@ -178,7 +182,12 @@ class _Falling(FrictionLaw):
 
 @FRICTION.register("linear")
 class LinearFalling(_Falling):
-    """μ = μ_k + (μ_s - μ_k) max(0, 1 - v/2v_h): on a straight line to the kinetic value at twice v_h."""
+    """μ = μ_k + (μ_s - μ_k) max(0, 1 - v/2v_h): on a straight line to the kinetic value at twice v_h.
+
+    >>> law = tl.contact.friction.LinearFalling(0.8, 0.5, 2.0)
+    >>> law.largest
+    0.8
+    """
 
     def _share(self, speed: Array) -> Array:
         share: Array = np.maximum(0.0, 1 - 0.5 * speed)
@@ -254,6 +263,10 @@ class Anisotropic(FrictionLaw):
     along, across: μ_x, μ_y > 0; on a base, factors of its coefficient. base: law that it multiplies. Slip follows the
     associated rule: it is normal to the ellipse, so that shear opposes it only along the axes. Source: Michałowski &
     Mróz (1978), Arch. Mech. 30, 259-276.
+
+    >>> law = tl.contact.friction.Anisotropic(along=0.8, across=0.6)
+    >>> law.along, law.across
+    (0.8, 0.6)
     """
 
     along: Number

@@ -53,6 +53,10 @@ class ParisLaw(GrowthLaw):
     rate: C, m per passage at a range of 1 MPa √m. exponent: n, >= 1. scatter: standard deviation of log₁₀ C.
     source, caveat: in words. Raises InputError.
     Source: Paris and Erdogan (1963), J. Basic Eng. 85, 528-534.
+
+    >>> law = tl.damage.ParisLaw(1e-8, 4.0)
+    >>> law.exponent
+    4.0
     """
 
     rate: Length

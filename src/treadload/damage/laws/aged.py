@@ -46,6 +46,9 @@ class AgedLine(PowerLaw):
     The cores: ε₆ = 123 microstrain, b = -0.342, scatter 0.44 of log₁₀ N, in bending, stress over initial stiffness;
     as stress N = 10^4.20 (σ/MPa)^-2.36. b is -0.25 to -0.31 where strength or voids are held equal: weak cores were
     tested at small stresses. Raises InputError.
+
+    >>> f"{tl.damage.AgedLine().allowable_passes(123e-6):.3g}"
+    '1e+06'
     """
 
     epsilon_6: Strain = 100e-6
@@ -178,6 +181,10 @@ class TwoSlopeLine:
     (-1, 0). knee: strain where the lower line begins, plain strain; left out, there is none. slope_below: b below
     the knee. endurance_limit: strain below which passes do no damage; left out, there is none. reads: left out, the
     tensile strain. Raises InputError.
+
+    >>> law = tl.damage.TwoSlopeLine(120e-6, -0.2)
+    >>> f"{law.allowable_passes(120e-6):.3g}"
+    '1e+06'
     """
 
     epsilon_6: Strain

@@ -88,6 +88,10 @@ class MepdgBottomUp(_Mepdg):
     Vb is the effective binder, without what the stones absorb. calibration: local factor on the passes.
     C = 10^(4.84 (Vb/(Va+Vb) - 0.69)); k₁ = 1/(0.000398 + 0.003602/(1 + exp(11.02 - 3.49 h))), h in inches.
     Source: NCHRP 1-37A (2004) as coded in ProductOneME.
+
+    >>> law = tl.damage.MepdgBottomUp(5e9, 0.15, air_voids=0.06, binder_volume=0.11)
+    >>> f"{law.allowable_passes(100e-6):.2g}"
+    '1.3e+08'
     """
 
     reads = BOTTOM_EXTENSION
@@ -139,6 +143,9 @@ class AsphaltInstitute(_Regression):
     Not verified: the exponents and C stand in U.S. Army CRREL Special Report 96-21 (1996); the constant 0.0796 is
     from memory; public programs agree on it, and one prints 1.03e6 passes for 237.7 microstrain at 3000 MPa. The
     manual itself, Asphalt Institute MS-1 (1982), was not at hand.
+
+    >>> f"{tl.damage.AsphaltInstitute(5e9).allowable_passes(100e-6):.2g}"
+    '1.1e+07'
     """
 
     air_voids: Share | None = None
@@ -186,6 +193,9 @@ class AsphaltInstituteSubgrade(PowerLaw):
     """Passes to a rut of 12.7 mm, N = 1.365e-9 ε_z^-4.477; compression counts positive.
 
     Not verified: from memory; public programs agree on it, and one prints 4.36e6 passes for 344.2 microstrain.
+
+    >>> f"{tl.damage.AsphaltInstituteSubgrade().allowable_passes(300e-6):.2g}"
+    '8.1e+06'
     """
 
     reads = SUBGRADE_COMPRESSION
@@ -219,6 +229,9 @@ class ShellFatigue(_Regression):
     """Passes to fatigue, N = 0.0685 ε^-5.671 E^-2.363 (E in psi).
 
     modulus: of the asphalt, Pa. Not verified: from memory, and found in no source.
+
+    >>> f"{tl.damage.ShellFatigue(5e9).allowable_passes(100e-6):.2g}"
+    '4.7e+07'
     """
 
     reads = BOTTOM_EXTENSION

@@ -79,6 +79,10 @@ class InterfaceStrength(BondStrength):
     own end, and no limit where φ = 0. caveat: which numbers have no source that was read.
     The law predicts when an intact bond fails; friction on a debonded face is another matter.
     Raises InputError.
+
+    >>> strength = tl.damage.InterfaceStrength(cohesion=0.85e6, friction_angle=0.6)
+    >>> strength.cohesion
+    850000.0
     """
 
     cohesion: Strength
@@ -264,6 +268,9 @@ class ShearFatigue(PowerLaw):
     Diakhaté et al. (2011), Constr. Build. Mater. 25, 2070, tested tack coats in double shear (not read). No slope is
     given here: `fit` draws the line through tests.
     Raises InputError.
+
+    >>> f"{tl.damage.ShearFatigue(slope=-0.2).allowable_passes(0.5):.3g}"
+    '32'
     """
 
     slope: Number

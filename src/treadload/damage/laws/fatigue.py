@@ -154,6 +154,10 @@ class FatigueLine(PowerLaw):
     the extension.
     A line measured in a laboratory carries no shift to the road: temperature, frequency, healing and
     scatter are the user's to include in epsilon_6.
+
+    >>> line = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
+    >>> f"{line.allowable_passes(60e-6):.3g}"
+    '3.2e+07'
     """
 
     epsilon_6: Strain
@@ -204,6 +208,11 @@ class PowerLine(PowerLaw):
 
     reads: the quantity, in a case its word. reading_6: r₆, the reading that allows a million passes, > 0, in its SI
     unit; text carries its own, "0.4 MPa". slope: b, in (-1, 0). Raises InputError.
+
+    >>> stress = tl.damage.OctahedralShear()
+    >>> law = tl.damage.PowerLine(stress, 0.4e6, -0.1)
+    >>> f"{law.allowable_passes(0.3e6):.3g}"
+    '1.78e+07'
     """
 
     reads: Quantity

@@ -230,6 +230,9 @@ class FrenchSubgrade(PowerLaw):
     constant: A, plain strain of one pass: 0.012 for medium and heavy traffic, 0.016 for light traffic, 0.0144 for
     the unbound layer of an inverted structure. slope: b.
     Source: NF P98-086 (2019) by a secondary source.
+
+    >>> f"{tl.damage.FrenchSubgrade().allowable_passes(500e-6):.2g}"
+    '1.6e+06'
     """
 
     constant: float = 0.012

@@ -39,6 +39,10 @@ class IrcFatigue(PowerLaw):
     volume in (0, 1): C = 10^(4.84 (Vb/(Va+Vb) - 0.69)). reliability: 0.9 or 0.8. ε: largest horizontal strain at the
     bottom of the asphalt. Raises InputError.
     Source: IRC:37-2018; its example III.1 prints 53 million passes for 175 microstrain at 3000 MPa.
+
+    >>> law = tl.damage.IrcFatigue(3e9, air_voids=0.035, binder_volume=0.115)
+    >>> f"{law.allowable_passes(150e-6):.2g}"
+    '9.8e+07'
     """
 
     modulus: Modulus
@@ -83,6 +87,9 @@ class IrcRutting(PowerLaw):
 
     reliability: 0.9 or 0.8. ε_z: vertical strain on top of the subgrade. Raises InputError.
     Source: IRC:37-2018; its example III.1 prints 187 million passes for 278 microstrain.
+
+    >>> f"{tl.damage.IrcRutting().allowable_passes(300e-6):.2g}"
+    '1.3e+08'
     """
 
     reliability: Share = 0.9
@@ -119,6 +126,9 @@ class IrcCementTreated:
     strength: M, the flexural strength after 28 days, Pa. σ: largest horizontal tension, Pa, at the bottom of the
     base: `allowable_strain` returns Pa. Even a tension of next to nothing allows no more than 6e11 passes.
     Raises InputError. Source: IRC:37-2018, the relation of NCHRP 1-37A for cement-stabilised layers.
+
+    >>> f"{tl.damage.IrcCementTreated(1.4e6).allowable_passes(0.7e6):.2g}"
+    '5.3e+05'
     """
 
     strength: Modulus
@@ -177,6 +187,9 @@ def granular_modulus(thickness: float, below: float) -> float:
     """Modulus, Pa, of a granular layer of a thickness, m, on a subgrade or platform of a modulus, Pa.
 
     0.2 h^0.45 times that below, h in mm. Raises InputError. Source: IRC:37-2018.
+
+    >>> f"{tl.damage.granular_modulus(0.45, 60e6) / 1e6:.0f} MPa"
+    '188 MPa'
     """
     positive("thickness", thickness, "metres", "450 mm is 0.45")
     positive("the modulus below", below, "Pa", "a subgrade of CBR 10 has 77e6")
@@ -187,6 +200,9 @@ def subgrade_modulus(bearing_ratio: float) -> float:
     """Modulus, Pa, of a subgrade of a California bearing ratio, %: 10 CBR MPa up to 5, 17.6 CBR^0.64 MPa above.
 
     Raises InputError. Source: IRC:37-2018; the first of both from memory.
+
+    >>> f"{tl.damage.subgrade_modulus(5.0) / 1e6:.0f} MPa"
+    '50 MPa'
     """
     positive("the bearing ratio", bearing_ratio, "%", "soils have 2 to 15")
     if not (math.isfinite(bearing_ratio) and bearing_ratio <= 100):

@@ -20,6 +20,10 @@ class Limit:
 
     reads: the quantity, in a case its word. limit: the largest reading that does no harm, > 0, in its SI unit; text
     carries its own, "0.4 MPa". Raises InputError.
+
+    >>> law = tl.damage.Limit(tl.damage.PrincipalTension(), 1e6)
+    >>> law.allowable_passes(2e6), law.allowable_passes(0.5e6)
+    (1.0, inf)
     """
 
     reads: Quantity
