@@ -48,7 +48,7 @@ class Belt:
 
     tread: of the layer between the road and the belt, elastic or, for steady rolling, viscoelastic.
     ribs: rubber of ribs and blocks with free sides, which a tire with tread = "ribs" takes in place of tread; left
-    out, that of tread. A layer without grooves has a smaller Poisson's ratio than its rubber, since it stands for ribs
+    out, that of tread. A layer without grooves has a smaller Poisson's ratio than its rubber, as it stands for ribs
     that bulge into their grooves as well.
     tread_thickness: m, ribs and undertread. foundation: what the sidewalls hold against a deflection of the belt, per
     unit of inflation pressure, 1/m; sidewall_stiffness: the part without inflation, Pa/m.
