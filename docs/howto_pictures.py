@@ -58,7 +58,7 @@ def command_line(folder: Path) -> Figure:
 def studies(folder: Path) -> Figure:
     """Strain over friction for three loads."""
     varied = {"friction": [0.5, 0.6, 0.7, 0.8, 0.9], "normal_load": ["25 kN", "32.5 kN", "40 kN"]}
-    return tl.sweep(case(), varied).plot.curve("largest_extension", depth=0.02)
+    return tl.sweep(case(), varied).plot.curve("largest_extension")
 
 
 def sensitivity(folder: Path) -> Figure:
@@ -137,6 +137,12 @@ def network(folder: Path) -> Figure:
     return example("network")["main"](folder).plot.stations()
 
 
+def service_life(folder: Path) -> Figure:
+    """Years of the first road of the page."""
+    page = (DOCS / "howto" / "service_life.md").read_text("utf-8")
+    return tl.run(tl.Case.from_text(page.split("```toml\n")[1].partition("```")[0])).life.plot.years()
+
+
 @styled
 def stress_dependent(folder: Path) -> Figure:
     """Moduli over depth of the base of the page under three pressures of a plate."""
@@ -175,6 +181,7 @@ def export(folder: Path) -> Figure:
         figure.axes[0].add_patch(
             Circle((1e3 * disc.x, 1e3 * disc.y), 1e3 * disc.radius, fill=False, color="0.15", lw=1.4)
         )
+    figure.axes[0].set(xlim=(-190, 190), ylim=(190, -190))
     return figure
 
 
@@ -221,7 +228,8 @@ def flow(axes: Axes, boxes: tuple[str, ...], arrows: tuple[str, ...]) -> None:
 
 def print_a_report(folder: Path) -> Path:
     """The top of a report in a browser."""
-    tl.report(tl.run(case()), folder / "report.html")
+    command(folder, "init")
+    tl.report(tl.run(tl.Case.from_toml(folder / "case.toml")), folder / "report.html")
     return photographed(folder / "report.html", 900, 1150)
 
 
@@ -252,7 +260,7 @@ def command(folder: Path, *words: str) -> None:
 
 
 DRAWN: tuple[Callable[[Path], Figure | Path], ...] = (
-    command_line, studies, sensitivity, surrogate, scan_a_tire, photographs, laser, fringes, calibrate, network,
+    command_line, studies, sensitivity, surrogate, scan_a_tire, photographs, laser, fringes, calibrate, network, service_life,
     stress_dependent, export, behind_a_proxy, interruptions, print_a_report, notebook,
 )  # fmt: skip
 

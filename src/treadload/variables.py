@@ -924,7 +924,7 @@ _DISPLAYS_STUDIES = {
     "varied": Display("varied"),
     "results": Display("further results"),
     "largest_extension": Display("largest tensile strain", "microstrain", ".1f"),
-    "largest_in_plane_extension": Display("in the horizontal plane", "microstrain", ".1f"),
+    "largest_in_plane_extension": Display("largest tensile strain in the horizontal plane", "microstrain", ".1f"),
     "largest_vertical_shear": Display("vertical shear", "microstrain", ".1f"),
 }
 

@@ -88,6 +88,13 @@ def test_docstrings_are_found():
     assert any("Isotropic" in text or "isotropic" in text for text in texts)
 
 
+@pytest.mark.parametrize("path", sorted((ROOT / "templates").glob("*.toml")), ids=lambda path: path.name)
+def test_templates_have_the_words_of_the_field(path):
+    comments = re.findall(r"#.*", path.read_text("utf-8"))
+    assert len(comments) > 10
+    assert faults(" ".join(comments), EVERYWHERE | {r"\bverdicts?\b": "assessment"}) == []
+
+
 def test_a_fault_is_found():
     assert faults("What it\ntells", EVERYWHERE) == ["'tells': write states, shows, determines, distinguishes"]
     assert faults("a verdict on roads with a grain", PAGES_ALONE) != []

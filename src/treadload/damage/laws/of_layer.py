@@ -59,10 +59,14 @@ class OnLayer:
         *first, last = missing
         listed = f"{', '.join(first)} and {last} are" if first else f"{last} is"
         classes = ", ".join(get_args(TrafficClass))
-        hint = f'; risk follows from the class of traffic too: traffic_class = "T1", one of {classes}'
+        hints = {
+            "risk": f'risk follows from the class of traffic too: traffic_class = "T1", one of {classes}',
+            "air_voids": "shares of the mix's volume, usually air_voids = 0.03 to 0.08 and binder_volume = 0.09 to 0.13",
+        }
+        hint = "".join(f"; {text}" for name, text in hints.items() if name in missing)
         raise InputError(
             f"{self.name!r}: {listed} missing, and the layer does not provide {'them' if first else 'it'}"
-            f"{hint if 'risk' in missing else ''}"
+            f"; give {'them' if first else 'it'} in the criterion{hint}"
         )
 
     def risk(
