@@ -260,8 +260,8 @@ def command(folder: Path, *words: str) -> None:
 
 
 DRAWN: tuple[Callable[[Path], Figure | Path], ...] = (
-    command_line, studies, sensitivity, surrogate, scan_a_tire, photographs, laser, fringes, calibrate, network, service_life,
-    stress_dependent, export, behind_a_proxy, interruptions, print_a_report, notebook,
+    command_line, service_life, studies, sensitivity, surrogate, scan_a_tire, photographs, laser, fringes, calibrate,
+    network, stress_dependent, export, behind_a_proxy, interruptions, print_a_report, notebook,
 )  # fmt: skip
 
 

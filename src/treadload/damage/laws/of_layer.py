@@ -61,7 +61,7 @@ class OnLayer:
         classes = ", ".join(get_args(TrafficClass))
         hints = {
             "risk": f'risk follows from the class of traffic too: traffic_class = "T1", one of {classes}',
-            "air_voids": "shares of the mix's volume, usually air_voids = 0.03 to 0.08 and binder_volume = 0.09 to 0.13",
+            "air_voids": "shares of volume, usually air_voids = 0.03 to 0.08 and binder_volume = 0.09 to 0.13",
         }
         hint = "".join(f"; {text}" for name, text in hints.items() if name in missing)
         raise InputError(
