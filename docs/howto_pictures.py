@@ -56,9 +56,10 @@ def command_line(folder: Path) -> Figure:
 
 
 def studies(folder: Path) -> Figure:
-    """Strain over friction for three loads."""
-    varied = {"friction": [0.5, 0.6, 0.7, 0.8, 0.9], "normal_load": ["25 kN", "32.5 kN", "40 kN"]}
-    return tl.sweep(case(), varied).plot.curve("largest_extension")
+    """Strain at the base over temperature for three loads."""
+    varied = {"pavement.temperature": [5.0, 15.0, 25.0, 35.0], "normal_load": ["25 kN", "32.5 kN", "40 kN"]}
+    of, at = "largest_in_plane_extension", {"depth": 0.21}
+    return tl.sweep(case(), varied).plot.curve(of, "pavement.temperature", by="rolling.normal_load", at=at)
 
 
 def sensitivity(folder: Path) -> Figure:

@@ -20,15 +20,15 @@ _READS = As(Quantity)
 
 
 class CriterionTable(TargetTable):
-    """`[[criteria]]`: name, law, and the layer that it judges.
+    """`[[criteria]]`: name, law, and the layer that it assesses.
 
     name: for tables and figures. layer: its name, or its number from the surface, 1 the top one, or its role, "top
     layer", "lowest asphalt layer", "lowest cement-bound layer" or "subgrade", whichever layer has it on a road; left
     out, the last one for laws of the subgrade and the top one for top-down cracking. place: "top" or "bottom", or
     "interface" for the bond below the layer; left out, the usual one of what is read: "top" for both of these, else
     "bottom". reads: a quantity by its name, or a table with its numbers, for laws with the user's numbers; those of
-    published laws hold for what they read. strain: of an extension, "principal" or "in-plane", which it is if left
-    out. mean_over: side of the cube of road that an extension near the surface is a mean over; 10 mm if left out.
+    published laws hold for what they read. strain: of a tensile strain, "principal" or "in-plane", the
+    default. mean_over: side of the cube of road that an extension near the surface is a mean over; 10 mm if left out.
     search_to: how far below the top of its layer the largest reading is looked for; only at the top if left out. The
     rest are parameters of the law; those left out are taken from the layer where it is one of the catalogue: ε₆,
     slope, SN, k_c and E(θ) of a mix, A and b of a platform.

@@ -20,7 +20,7 @@ from treadload.read.table import first_words
 
 
 class Case(Description):
-    """Everything that a computation needs, checked: what it describes, and the tables of steps, which it asks for.
+    """The checked input of a computation: tire, road and what else it describes, and the tables of its steps.
 
     >>> case = tl.Case.from_text('''
     ... tire = { profile = "315/80R22.5", inflation_pressure = "8.2 bar" }

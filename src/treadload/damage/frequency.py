@@ -64,9 +64,9 @@ class LoadingFrequency:
     ) -> tuple[Pavement, list[float]]:
         """The road with its mixes at their own frequencies, and these, Hz; of layers above the soil.
 
-        road: whose mixes wait for their temperature. temperatures: °C, one for each layer. speed, radius: as above.
-        By turns, since moduli and frequencies depend on each other. Raises InputError for a mix known at one
-        frequency only.
+        road: whose mixes have no temperature yet. temperatures: °C, one for each layer. speed, radius: as above.
+        Found by iteration, since moduli and frequencies depend on each other. Raises InputError for a mix known at
+        one frequency only.
         """
         thicknesses = [layer.thickness for layer in road.layers if layer.thickness is not None]
         frequencies = [CONVENTION] * len(thicknesses)

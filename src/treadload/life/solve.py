@@ -35,9 +35,9 @@ from treadload.pavement import Pavement, lift_below
 
 
 def solve_life(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Life:
-    """How many years a road lasts, by every criterion.
+    """The service life of a road by every criterion.
 
-    What each law reads as every class of axle passes in every season, see `solve_passages`; then Miner's sum after
+    Evaluates each law for every class of axles in every season, see `solve_passages`; then Miner's sum after
     wander, see `miner`, and how the axles of a group interact, see `life.groups`; the rut, see `life.rutting`.
     workers: threads; all cores if left out. progress: called after every solve.
     stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of

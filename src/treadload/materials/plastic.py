@@ -161,8 +161,8 @@ class MohrCoulomb:
     cohesion: c, Pa, > 0. friction_angle: φ, rad, in [0, π/2); 35 degrees is math.radians(35). dilation_angle: ψ, rad,
     in [0, φ]: how much it swells as it shears. hardening: Pa, >= 0, slope of the von Mises strength over equivalent
     plastic strain. The cone that is used goes through the compression edges of the pyramid, as triaxial tests measure
-    them: tan β = 6 sin φ / (3 - sin φ), d = 6 c cos φ / (3 - sin φ), flow likewise with ψ; in triaxial extension it
-    is too strong. Raises InputError.
+    them: tan β = 6 sin φ / (3 - sin φ), d = 6 c cos φ / (3 - sin φ), and the flow with ψ; in triaxial extension
+    the cone is stronger than the pyramid. Raises InputError.
 
     Source: de Souza Neto, Perić & Owen (2008), Computational Methods for Plasticity, section 6.4.4.
     """

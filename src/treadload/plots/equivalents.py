@@ -27,7 +27,7 @@ _FRENCH = 130e3
 )  # fmt: skip
 @styled
 def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
-    """Dots of what one passage of each class does, in standard axles, by every criterion; crosses by its load alone.
+    """Damage of one passage of each class in standard axles: dots by every criterion, crosses by the load alone.
 
     The crosses are (P / 130 kN)⁵ K where the standard axle has 130 kN, else the fourth power of P over its load.
     equivalents: an Equivalents or its dataset. Returns the figure. Raises InputError if variables are missing.

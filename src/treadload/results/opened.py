@@ -27,8 +27,8 @@ class Results(Study):
     """Named results, such as `open_results` reads from a file.
 
     Each part is the object that a verb returned, by its name: `results.contact`, `results["response_2"]`; `in`, `len`
-    and iteration go over the names. A part is made when it is first asked for. tree: that they come from, as xarray
-    sees it. where: the file, for errors.
+    and iteration go over the names. A part is created on first access. tree: the tree of xarray that holds
+    them. where: the file, for errors.
     """
 
     def __init__(self, tree: xr.DataTree, where: str = "these results") -> None:

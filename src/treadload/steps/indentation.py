@@ -104,7 +104,7 @@ class DrumStep(DentSource, name="drum"):
     laws of Perzyna need. spacing_along, spacing_across: of the cells along travel and across it, both or none; left
     out, a twelfth of the elastic contact's length and a 28th of the drum's width. depth: of what may yield; left out,
     it grows until it holds it. layers: rows of cells in it. tolerance: of the plastic strain of a pass, relative. It
-    stands in place of `[rolling]`.
+    replaces `[rolling]`.
     """
 
     makes: ClassVar = ("passes",)

@@ -14,7 +14,7 @@ RISKS = (0.05, 0.5, 0.95)
 
 
 def refined(lengths: Array, rates: Array, parts: int = 8) -> tuple[Array, Array]:
-    """So many lengths, m, for each step between those solved, and the rates there, m per pass.
+    """Lengths, m, at several points between those solved, and the rates there, m per load repetition.
 
     lengths: (n,), m, rising. rates: (n, ...), >= 0. The logarithm of the rate is a monotone cubic of that of the
     length, so that a power of the length stays one; rates that vanish next to a length vanish up to it.

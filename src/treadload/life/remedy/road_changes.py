@@ -60,11 +60,11 @@ def other_mixes(design: Design, steps: RemedySteps) -> Iterator[Change]:
 
 
 def neighbours(material: RoadMaterial) -> tuple[RoadMaterial, ...]:
-    """Materials of the catalogue next to one: of the same use, the next stiffer and, of mixes, the next softer.
+    """The next stiffer material of the catalogue with the same use and, for mixes, the next softer one.
 
     By modulus at 15 °C, among equals by ε₆. A use is a wearing course (BB...), a bituminous base (GB, EME), treated
     material, a platform or graded aggregate. One that has a fatigue line has only neighbours that have one. A softer
-    platform or aggregate helps nothing and is left out.
+    subgrade or aggregate is not a remedy and is left out.
     """
     use, rank = _use(material), _rank(material)
     alike = [candidate for candidate in mixes.values() if _use(candidate) == use]
