@@ -107,3 +107,10 @@ class Visit:
         with self.page.expect_file_chooser() as chooser:
             self.page.get_by_role("button", name=text).click()
         chooser.value.set_files(files)
+
+
+def within(seconds, bound, what):
+    """Print a time beside its bound; assert it where TREADLOAD_QUIET says that nobody else works on the machine."""
+    print(f"{what}: {seconds:.3f} s, bound {bound} s, load {os.getloadavg()[0]:.1f}")
+    if os.environ.get("TREADLOAD_QUIET"):
+        assert seconds < bound, what

@@ -13,7 +13,8 @@ import xarray as xr
 
 import treadload as tl
 from treadload.plots import interactive
-from treadload.plots.interactive.cut import depth_edges, sampled
+from treadload.plots.interactive.cut import sampled
+from treadload.plots.interactive.section_rows import SectionRows
 from treadload.plots.kit.layers import Layers
 
 ROAD = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
@@ -140,26 +141,42 @@ def test_a_section_below_a_line_has_depth_down_the_page(response):
     figure = interactive.depth_slice(response, cut)
     (cells,) = traces(figure, "heatmap")
     assert figure.layout.yaxis.autorange == "reversed"
-    assert list(cells.y) == pytest.approx([0, 5, 20, 40])
-    # Between the points of the map; at those that lie on one it is that one's.
+    assert (cells.y[0], cells.y[-1]) == pytest.approx((0, 30))
+    # As wide as its place: the axes are not tied to each other.
+    assert figure.layout.yaxis.scaleanchor is None
+    # Between the points of the map and between depths; at those that lie on one it is that one's.
     held = response.dataset.principal_strain_1[:, :, 7].to_numpy() * 1e6
     places = (np.asarray(cells.x)[1:] + np.asarray(cells.x)[:-1]) / 2
-    for row in range(3):
-        wanted = np.interp(places, response.dataset.y.to_numpy() * 1e3, held[row])
-        np.testing.assert_allclose(np.asarray(cells.z)[row], wanted, rtol=1e-5, atol=1e-4)
+    deep = (np.asarray(cells.y)[1:] + np.asarray(cells.y)[:-1]) / 2
+    assert len(deep) == 96
+    along = np.stack([np.interp(places, response.dataset.y.to_numpy() * 1e3, row) for row in held])
+    wanted = np.stack([np.interp(deep, [0.0, 10.0, 30.0], column) for column in along.T]).T
+    np.testing.assert_allclose(np.asarray(cells.z), wanted, rtol=1e-5, atol=1e-4)
     with pytest.raises(tl.InputError, match="needs a cut"):
         interactive.depth_slice(response)
     with pytest.raises(tl.InputError, match="two points that differ"):
         interactive.Cut((0.1, 0.2), (0.1, 0.2))
 
 
-def test_rows_of_a_section_end_at_interfaces():
+def test_rows_of_a_section_are_smooth_within_layers_and_end_at_interfaces():
+    """A field linear in depth within each layer, with a jump between them, comes back at every row."""
     layers = Layers((60.0,), ("a", "b"))
-    # An interface between two depths parts them there, not half way.
-    assert depth_edges(np.array([0.0, 50.0, 100.0]), layers).tolist() == [0, 25, 60, 140]
-    # Both sides of it, and the side above alone, which belongs to the upper layer.
-    assert depth_edges(np.array([0.0, 40.0, 60.0, 60.0, 100.0]), layers).tolist() == [0, 20, 50, 60, 80, 120]
-    assert depth_edges(np.array([0.0, 60.0, 100.0]), layers).tolist() == [0, 30, 60, 140]
+    depths = np.array([0.0, 20.0, 60.0, 60.0, 100.0])
+    field = np.array([1.0, 3.0, 7.0, -5.0, -1.0])
+    rows = SectionRows.of(depths, layers)
+    assert 60.0 in rows.edges
+    middle = (rows.edges[1:] + rows.edges[:-1]) / 2
+    wanted = np.where(middle < 60, 1 + middle / 10, -5 + (middle - 60) / 10)
+    np.testing.assert_allclose(rows.between(field), wanted, atol=1e-12)
+    # No row mixes the layers, also where the interface itself has no depth: the nearest depth of the layer holds.
+    rows = SectionRows.of(np.array([0.0, 50.0, 100.0]), layers)
+    middle = (rows.edges[1:] + rows.edges[:-1]) / 2
+    values = rows.between(np.array([0.0, 5.0, 9.0]))
+    np.testing.assert_allclose(values, np.where(middle < 60, np.minimum(middle, 50) / 10, 9.0), atol=1e-12)
+    # A browser makes the same rows.
+    low, high, share = (np.array(part) for part in zip(*rows.as_lists(), strict=True))
+    assert low.dtype == high.dtype == int
+    np.testing.assert_allclose(share, rows.share, atol=1e-6)
 
 
 def test_a_measured_footprint_lies_over_map_and_profile(contact):

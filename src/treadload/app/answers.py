@@ -40,6 +40,20 @@ class Allowed(TypedDict, total=False):
     notes: list[str]
 
 
+class Card(TypedDict):
+    """The answer at a glance. state: "meets" or "short" of the design life, "open" where none is given.
+
+    facts: label and text each. others: criteria that do not govern. map: what the brightest spot of the map is, "" of
+    a run without one.
+    """
+
+    state: str
+    headline: str
+    facts: list[tuple[str, str]]
+    others: list[str]
+    map: str
+
+
 class Dimension(TypedDict):
     """A dimension of a study. words: what it is. values: in words."""
 
@@ -93,6 +107,7 @@ class Answer(TypedDict, total=False):
     depths: list[float]
     criteria: list[str]
     allowed: Allowed
+    card: Card | None
     pictures: dict[str, Picture]
     picture: Picture
     titles: dict[str, str]

@@ -8,10 +8,13 @@ from typing import Any
 
 from nicegui import ui
 
-from treadload.app.elements import choosing, heading, plain, with_attributes
+from treadload.app.elements import choosing, heading, marks_change, plain, with_attributes
+from treadload.app.field_errors import at_fields
 from treadload.app.form import Checked, Form
 from treadload.app.form_field import LIST, Field
 from treadload.app.form_parts import Absent, Choosing, Group, Part, Rows
+from treadload.app.link_box import LinkBox
+from treadload.app.road_drawing import RoadDrawing
 from treadload.app.session import FILES, Session
 from treadload.app.tread_section import TreadSection
 from treadload.app.uploads import Uploads
@@ -33,8 +36,13 @@ class CaseForm(Uploads):
         self._room, self._changed, self._files = room, changed, files or {}
         self._shown: dict[str, tuple[Field, Any]] = {}
         self._checked = Checked(None, {})
+        # Called once the fields were compared with what is shown of them.
+        self.when_checked: Callable[[], object] = lambda: None
+        # The form and the names of files from before an upload that is not solved yet.
+        self._before_upload: tuple[Form, dict[str, str]] | None = None
         self._open: set[str] = set()
         self._section: TreadSection | None = None
+        self._road: RoadDrawing | None = None
         self._fields: Any = None
 
     @property
@@ -45,6 +53,7 @@ class CaseForm(Uploads):
     def build(self) -> None:
         """Put the fields on the page."""
         super().build()
+        self.link = LinkBox(self.session, lambda: self.form, self.again)
         self._fields = ui.element("div")
         self._all()
 
@@ -52,7 +61,7 @@ class CaseForm(Uploads):
         """Put the fields of the form of now in place of those of before."""
         self._fields.clear()
         self._shown.clear()
-        self._section = None
+        self._section = self._road = None
         with self._fields:
             self._whole()
 
@@ -72,9 +81,10 @@ class CaseForm(Uploads):
         heading("Your case")
         with ui.element("div").classes("line"):
             self.upload("open a TOML …", (".toml",), None)
+            self.link.button()
             for text, (suffixes, opened) in self._files.items():
                 self.upload(text, suffixes, opened)
-            plain("start again", lambda: self.again(Form.first(self.form.command)))
+            marks_change(plain("start again", lambda: self.again(Form.first(self.form.command))))
         for sentence in self.form.schema.broken:
             ui.label(sentence).classes("warning")
         self.check()
@@ -94,8 +104,13 @@ class CaseForm(Uploads):
                         ui.label(row.label)
                         self._remove(row.path, row.label)
                     self._inside(row)
-            plain(f"add to {table.label.lower()}", lambda: self.again(self.form.with_row(table.path, self._folder)))
+            add = plain(
+                f"add to {table.label.lower()}", lambda: self.again(self.form.with_row(table.path, self._folder))
+            )
+            marks_change(add)
             return
+        if table.path == "pavement":
+            self._road = RoadDrawing()
         self._parts(table.parts)
         if table.path == "tire.profile":
             self._section = TreadSection()
@@ -136,7 +151,7 @@ class CaseForm(Uploads):
             add = plain(
                 f"add {part.label.lower()}", lambda: self.again(self.form.with_added(part.path, self._folder))
             )
-            add.tooltip(part.words)
+            marks_change(add).tooltip(part.words)
         else:
             self.field(part)
 
@@ -166,7 +181,7 @@ class CaseForm(Uploads):
 
     def _remove(self, path: str, label: str) -> None:
         remove = plain("remove", lambda: self.again(self.form.without(path, self._folder)), label=f"remove {label}")
-        with_attributes(remove, data_remove=path).classes("quiet")
+        marks_change(with_attributes(remove, data_remove=path).classes("quiet"))
 
     def _choosing(self, part: Choosing) -> None:
         options = dict(part.options)
@@ -191,7 +206,39 @@ class CaseForm(Uploads):
         self.again(form)
 
     def _takes_file(self, path: str) -> Callable[[str], object]:
-        return lambda name: self.again(self.form.with_added(path, self._folder, name))
+        return lambda name: self._file_came(path, name)
+
+    def _file_came(self, path: str, name: str) -> None:
+        """A file takes the place of the value of a key, until solving finds that it cannot be used."""
+        shown = self.session.known_as(name)
+        before = {text: kept for text, kept in self.session.files.items() if kept != name}
+        if self.session.replaced.get(name):
+            before[shown] = self.session.replaced[name]
+        form = self.form.with_added(path, self._folder, name)
+        wrong = form.check(self._folder).wrong
+        if wrong and self.form.check(self._folder).case is not None:
+            self._put_back(before)
+            self.show_problem(f"{shown}: {'; '.join(wrong.values())}")
+            return
+        self._before_upload = (self.form, before)
+        self.again(form)
+
+    def _put_back(self, files: dict[str, str]) -> None:
+        self.session.files.clear()
+        self.session.files.update(files)
+
+    def upload_solved(self) -> None:
+        """The file that came last is in force."""
+        self._before_upload = None
+
+    def upload_failed(self) -> bool:
+        """Bring back the form and the file of before an upload; False where there was none."""
+        if self._before_upload is None:
+            return False
+        (form, files), self._before_upload = self._before_upload, None
+        self._put_back(files)
+        self.take(form)
+        return True
 
     @property
     def _folder(self) -> Path:
@@ -214,25 +261,43 @@ class CaseForm(Uploads):
     def check(self) -> None:
         """Check the form, and show at each field whose its value is and what is wrong with it."""
         self._checked = self.form.check(self._folder)
+        fields = {path: field for path, (field, _) in self._shown.items()}
+        values = {path: self.form.value(path) for path in fields}
+        placed, elsewhere = at_fields(self._checked.wrong, fields, values)
         for path, (field, element) in self._shown.items():
-            wrong = self._checked.at(path, set(self._shown))
             otherwise = self.form.default_of(field, self._checked.case)
-            is_given = self.form.value(path) is not None
+            is_given = values[path] is not None
             # What a road of yours leaves out is no value of yours.
             is_yours = is_given and self.form.is_yours(path)
             hint = "yours" if is_yours else "default" if is_given or not otherwise else f"default: {otherwise}"
             with_attributes(element, hint=hint).props(remove="error error-message")
             element.classes(add="is-yours" if is_yours else "", remove="" if is_yours else "is-yours")
-            if wrong:
-                element.props["error"], element.props["error-message"] = True, wrong
+            if path in placed:
+                element.props["error"], element.props["error-message"] = True, placed[path]
             element.update()
         self._problems.clear()
         with self._problems:
-            for text in self._checked.elsewhere(set(self._shown)):
+            for text in elsewhere:
                 ui.label(text).classes("problem")
         self._has_problem = False
         if self._section is not None:
             self._section.draw(self.form)
+        if self._road is not None:
+            self._road.draw(self._checked.case)
+        self.when_checked()
+
+    def show_problem(self, text: str) -> None:
+        """Show what is wrong: at the field that the sentence names, else above all fields."""
+        text = self.session.in_words(text)
+        fields = {path: field for path, (field, _) in self._shown.items()}
+        placed, _ = at_fields({"": text}, fields, {path: self.form.value(path) for path in fields})
+        for path, sentence in placed.items():
+            element = self._shown[path][1]
+            element.props["error"], element.props["error-message"] = True, sentence
+            element.update()
+            self._has_problem = True
+        if not placed:
+            super().show_problem(text)
 
     def clear_problem(self) -> None:
         """The problem is over; what is wrong with the fields of now is not."""
@@ -246,7 +311,7 @@ class CaseForm(Uploads):
         if field.kind == "flag":
             element = ui.switch(field.label, value=(value or field.otherwise) == "yes")
             element.on_value_change(lambda event: self._typed(field, "yes" if event.value else "no"))
-            with_attributes(element, data_path=field.path)
+            marks_change(with_attributes(element, data_path=field.path), "update:model-value")
             element.props("dense").classes("switch")
             if field.words:
                 element.tooltip(field.words)
@@ -263,7 +328,7 @@ class CaseForm(Uploads):
             with_attributes(element, suffix=field.unit).props('stack-label autocomplete="off"')
             element.on("blur", lambda: self._typed(field, str(element.value or "")))
             element.on("keydown.enter", lambda: self._typed(field, str(element.value or "")))
-        with_attributes(element, data_path=field.path).props("dense outlined")
+        marks_change(with_attributes(element, data_path=field.path), "update:model-value").props("dense outlined")
         is_wide = field.kind in (LIST, "text") and len(value) > 14
         element.classes("field wide" if is_wide else "field")
         if field.words:
@@ -277,6 +342,7 @@ class CaseForm(Uploads):
     def _typed(self, field: Field, text: str) -> None:
         text = text.strip()
         if text == self._shown_text(field.shown(self.form.value(field.path))):
+            self.when_checked()
             return
         before = self.form.table
         self.session.forms[self._room] = self.form.with_text(field, self.session.files.get(text, text))

@@ -42,6 +42,8 @@ class ContactPage(Page):
         self._slice = SlicePanel(lambda: background_tasks.create(self._cut()), self.js)
         self._runs = RunCards(session, self.address, self._show, self._compare)
         self._gallery = Gallery(self)
+        self._section_follows = False
+        self._tread: Place | None = None
 
     def inside(self) -> None:
         """The form, the maps and what is below them, the verdict."""
@@ -111,6 +113,7 @@ class ContactPage(Page):
     def drawn(self, run: Run, answer: Answer) -> None:
         """Draw what an answer holds, and tell its verdict."""
         figures = answer.get("figures", {})
+        self._section_follows = "part" in answer
         for name in ("maps", "places"):
             if name in figures:
                 self._maps.draw(figures[name], f"{run.name}:{answer.get('part', 'maps')}", add=name == "places")
@@ -127,10 +130,19 @@ class ContactPage(Page):
         self._runs.list(self.now)
         background_tasks.create(self._thumb(run))
 
+    def stale_part(self) -> str:
+        """The section, until the road below the run is solved."""
+        return "section" if self._section_follows else ""
+
     def settled(self) -> None:
         """The road below the maps is known: cut it."""
         self.stage.text = "solved"
         background_tasks.create(self._cut())
+
+    def left_undone(self) -> None:
+        """The section of the run that stays was perhaps not solved yet."""
+        if self._section_follows:
+            background_tasks.create(self._cut())
 
     def _offer(self, choices: dict[str, str], depths: list[float]) -> None:
         """Fill the lists of maps without asking for what they show already."""
@@ -154,7 +166,6 @@ class ContactPage(Page):
 
     def redraw(self) -> None:
         """Draw the run, or the two, of now."""
-        self._space.clear()
         if self._pair is not None:
             background_tasks.create(self._draw_pair(*self._pair))
         elif self.now is not None:
@@ -163,11 +174,13 @@ class ContactPage(Page):
     async def _draw_run(self, run: Run) -> None:
         answer = await self.last("maps", run=run.name, theme=self.theme, view=self._seen())
         if "error" not in answer:
-            run.rows, run.warnings = answer["rows"], answer["warnings"]
+            run.rows, run.warnings, run.card = answer["rows"], answer["warnings"], run.card or answer.get("card")
             with self.client:
                 self.drawn(run, answer)
-            await self._gallery.show(run.name)
         await self._cut()
+        if self._tread is not None:
+            await self._draw_tread(run)
+        await self._gallery.show(run.name)
 
     async def _cut(self) -> None:
         run = self.now
@@ -175,7 +188,13 @@ class ContactPage(Page):
             return
         lacks_section = await self._draw_slice(run)
         # Its process gave way to another; what was brought as a file has no case of this page and gets no section.
-        if lacks_section and run.form is not None and "error" not in await self.last("section", run=run.name):
+        if lacks_section and run.form is not None:
+            answer = await self.last("section", run=run.name)
+            if "error" in answer:
+                return
+            run.allowed, run.card = answer.get("allowed", run.allowed), answer.get("card", run.card)
+            with self.client:
+                self.right.show(run, done=run.ready)
             await self._draw_slice(run)
 
     async def _draw_slice(self, run: Run) -> bool:
@@ -184,6 +203,8 @@ class ContactPage(Page):
                                  name=self._slice.section_of, over=self._over)  # fmt: skip
         if self.now is run:
             self._slice.draw(answer.get("figures", {}))
+            self._section_follows = "section" not in answer.get("figures", {}) and run.form is not None
+            self.compare_with_form()
         return bool(answer.get("lacks_section"))
 
     def fly(self, x: float, y: float) -> None:
@@ -192,15 +213,18 @@ class ContactPage(Page):
 
     async def _show_tread(self) -> None:
         """Show the tread in space, or put it away."""
-        if self._space.default_slot.children:
+        if self._tread is not None:
             self._space.clear()
-            return
-        if self.now is None:
-            return
-        answer = await self.last("tread", run=self.now.name, theme=self.theme)
-        if "error" not in answer:
+            self._tread = None
+        elif self.now is not None:
             with self.client, self._space:
-                Place("tread", "the tread in space").draw(answer["figures"]["tread"])
+                self._tread = Place("tread", "the tread in space")
+            await self._draw_tread(self.now)
+
+    async def _draw_tread(self, run: Run) -> None:
+        answer = await self.last("tread", run=run.name, theme=self.theme)
+        if self._tread is not None and "error" not in answer:
+            self._tread.draw(answer["figures"]["tread"])
 
     # Other runs.
 
@@ -231,7 +255,7 @@ class ContactPage(Page):
             if not isinstance(picture, str) or len(picture) > _MOST_LETTERS or '"' in picture:
                 return
             if picture.startswith("data:image/png;base64,"):
-                run.thumb = picture
+                run.thumb, run.thumb_theme = picture, self.theme
                 self._runs.list(self.now)
 
     # Files.

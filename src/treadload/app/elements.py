@@ -44,11 +44,19 @@ def plain(content: str, do: Callable[..., object], *, main: bool = False, label:
     return button.on("click", lambda: do())
 
 
+def marks_change(element: Any_Element, event: str = "click") -> Any_Element:
+    """The element, which marks results as those of another input as soon as it is used, before the server hears."""
+    element.on(event, js_handler="() => treadloadEdited()")
+    return element
+
+
 def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], object]) -> ui.select:
     """One of a few."""
     select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))
-    return select.props("dense outlined options-dense").classes(
-        "choice wide" if len(options.get(value, "")) > 18 else "choice"
+    return (
+        marks_change(select, "update:model-value")
+        .props("dense outlined options-dense")
+        .classes("choice wide" if len(options.get(value, "")) > 18 else "choice")
     )
 
 

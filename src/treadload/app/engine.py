@@ -28,6 +28,7 @@ from treadload.app.result_rows import allowed_rows, rows_of
 from treadload.app.stored_run import Stopped, StoredRun, StoredRuns
 from treadload.app.study_points import about_study, point_of, point_rows, study_of
 from treadload.app.unsolved import left_out
+from treadload.app.verdict_card import card_of
 from treadload.case import Case
 from treadload.composing import BaseResult
 from treadload.damage import Verdict
@@ -141,7 +142,7 @@ class Engine:
                 drawn |= map_figures.along(stored.parts, None, view.get("line"), theme=theme, with_source=False)
             say(drawn, part=stage, rows=rows_of(stored.parts),
                 warnings=list(dict.fromkeys(warnings)), choices=map_figures.choices_of(stored.parts),
-                depths=map_figures.depths_of(stored.parts),
+                depths=map_figures.depths_of(stored.parts), card=card_of(stored.parts),
                 seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip
 
         tell("reading the case")
@@ -161,13 +162,7 @@ class Engine:
             map_figures.block_depths(bottom, stored.load.road.interfaces.tolist(), _BLOCK_DEPTHS)
         )
         tell("passes by criterion")
-        verdict = stored.parts.get("damage")
-        allowed = passes_allowed(stored.load, verdict if isinstance(verdict, Verdict) else None)
-        say(
-            done=True,
-            seconds=time.monotonic() - began,
-            allowed={"rows": allowed_rows(allowed), "notes": list(allowed.without)},
-        )
+        say(done=True, seconds=time.monotonic() - began, **self._allowed(stored))
 
     def _life(self, say: Say, run: str, table: dict[str, object], theme: str) -> None:
         began, used, last_sent = time.monotonic(), time.process_time(), 0.0
@@ -204,6 +199,7 @@ class Engine:
             "rows": rows_of(stored.parts, criterion),
             "warnings": list(dict.fromkeys(warnings)),
             "criteria": names,
+            "card": card_of(stored.parts),
         }
 
     def _shares(self, say: Say, run: str, criterion: str) -> None:
@@ -232,16 +228,18 @@ class Engine:
         warnings = [text for part in stored.parts.values() for text in part.warnings]
         say(map_figures.maps(stored.parts, theme=theme, **view), rows=rows_of(stored.parts), done=True,
             warnings=list(dict.fromkeys(warnings)), choices=map_figures.choices_of(stored.parts),
-            depths=map_figures.depths_of(stored.parts), run=run)  # fmt: skip
+            depths=map_figures.depths_of(stored.parts), card=card_of(stored.parts), run=run)  # fmt: skip
 
     def _cut(
         self, say: Say, run: str, theme: str, line: list[float] | None, over: str | None = None, name: str = ""
     ) -> None:
         stored = self.runs.run_of(run)
         overlaid = None if over is None else self.runs.run_of(over).parts.get("contact")
-        # Where this process goes on with the run of one that gave way, the road below it is solved on request.
+        # Where this process goes on with the run of one that gave way, or was stopped before it came to the road
+        # below, that is solved on request.
+        is_solving = self._solving is not None and self._solving.is_alive()
         say(map_figures.along(stored.parts, stored.block, line, theme=theme, name=name, over=overlaid), done=True,
-            lacks_section=stored.opened and stored.block is None)  # fmt: skip
+            lacks_section=stored.block is None and not is_solving)  # fmt: skip
 
     def _section(self, say: Say, run: str) -> None:
         """Solve the block of road below a run that was opened from its file."""
@@ -251,7 +249,16 @@ class Engine:
             faces = load.road.interfaces.tolist()
             bottom = load.case.response.slices_to(faces, rigid_base=load.road.rigid_base)
             stored.block = load.solve(map_figures.block_depths(bottom, faces, _BLOCK_DEPTHS))
-        say(done=True)
+        say(done=True, **self._allowed(stored))
+
+    def _allowed(self, stored: StoredRun) -> dict[str, object]:
+        """Load repetitions by criterion below a run, and the card that states which of them governs."""
+        verdict = stored.parts.get("damage")
+        allowed = passes_allowed(self.runs.loaded(stored), verdict if isinstance(verdict, Verdict) else None)
+        return {
+            "allowed": {"rows": allowed_rows(allowed), "notes": list(allowed.without)},
+            "card": card_of(stored.parts, allowed),
+        }
 
     def _difference(self, say: Say, first: str, second: str, name: str, theme: str, width: float,
                     labels: list[str]) -> None:  # fmt: skip

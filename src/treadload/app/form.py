@@ -203,6 +203,14 @@ class Form:
         except InputError as error:
             return Checked(None, by_key(error) or {"": str(error).removeprefix("case: ")})
 
+    def refused(self) -> str:
+        """Why no page may open a case with these tables; "" where one may."""
+        try:
+            _settle(self.table, None)
+        except InputError as error:
+            return str(error)
+        return ""
+
     def to_toml(self) -> str:
         """The case as a TOML file, as it was typed."""
         return tomli_w.dumps(dict(self.table))
@@ -235,6 +243,11 @@ def _kept(
     }
     kept |= {key: before[key] for key in ("name", "share", "layer") if key in properties and key in before}
     return {**value, **{key: item for key, item in kept.items() if type(item) is type(value.get(key, item))}}
+
+
+def leaves_of(table: Mapping[str, object]) -> dict[str, object]:
+    """Values by their paths; lists of numbers whole, rows of tables by their number."""
+    return {path: value_at(table, path) for path in _paths(table)}
 
 
 def _paths(table: Mapping[str, object] | list[object], before: str = "") -> Iterator[str]:

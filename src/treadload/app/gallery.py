@@ -13,7 +13,7 @@ class Gallery:
     """A list of the figures of a run. page: that it is part of."""
 
     def __init__(self, page: Page) -> None:
-        self._page = page
+        self._page, self._run = page, ""
 
     def build(self) -> None:
         """The list and the place of the picture; nothing is listed before `show`."""
@@ -23,7 +23,10 @@ class Gallery:
         self._choice.set_visibility(False)
 
     async def show(self, run: str) -> None:
-        """List the figures of a run. run: its name."""
+        """List the figures of a run. run: its name; the list of one that stands already is left as it is."""
+        if run == self._run:
+            return
+        self._run = run
         answer = await self._page.last("gallery", run=run)
         with self._page.client:
             self._place.clear()

@@ -109,7 +109,7 @@ class LifePage(Page):
             self.now = run
             if run.form is not None:
                 self._form.take(run.form)
-            run.rows, run.warnings = answer["rows"], answer["warnings"]
+            run.rows, run.warnings, run.card = answer["rows"], answer["warnings"], answer["card"]
             self.drawn(run, {**answer, "part": "life"})
             self._runs.list(run)
             self.state("shown", run=run.name)

@@ -26,7 +26,7 @@ _NARROWEST, _CHANGED = 560.0, 20.0
 # What a browser is like, as it says.
 _ABOUT = (
     "({width: document.querySelector('.centre').clientWidth - 26, "
-    "dark: matchMedia('(prefers-color-scheme: dark)').matches})"
+    "dark: matchMedia('(prefers-color-scheme: dark)').matches, link: treadloadLinked()})"
 )
 
 
@@ -76,6 +76,10 @@ class Page:
         self._root = ui.element("div").classes("bench").props('id="bench" data-state="starting" data-ready="0"')
         with self._root:
             self.inside()
+        self._before = ui.label("").classes("before").props('role="status" aria-live="polite" id="before"')
+        if isinstance(self.left, CaseForm):
+            self.left.when_checked = lambda: self.compare_with_form(typed=True)
+        ui.on("link", lambda event: self._linked(str(event.args["link"])))
         ui.on("width", lambda event: self._resized(float(event.args["width"])))
 
     # What kinds of pages do.
@@ -99,6 +103,9 @@ class Page:
 
     def settled(self) -> None:
         """Nothing more comes of a run."""
+
+    def left_undone(self) -> None:
+        """A solve came to no result; that of before stays."""
 
     def redraw(self) -> None:
         """Draw once more what stands on the page, in the theme of now."""
@@ -124,6 +131,7 @@ class Page:
                 self.width = max(_NARROWEST, float(about["width"]))
                 self.theme = "dark" if about["dark"] else "light"
                 self._dark.value = bool(about["dark"])
+                self._linked(str(about.get("link") or ""))
             await self.started()
 
     async def _is_there(self) -> bool:
@@ -134,6 +142,11 @@ class Page:
             return False
         # A connection that is lost for a moment comes again.
         return not self.client.is_deleted
+
+    def _linked(self, link: str) -> None:
+        """Restore the case of a link."""
+        if link and isinstance(self.left, CaseForm):
+            self.left.link.restore(link)
 
     def _other_theme(self) -> None:
         self.theme = "light" if self.theme == "dark" else "dark"
@@ -158,6 +171,25 @@ class Page:
         for key, value in more.items():
             self._root.props[f"data-{key}"] = value
         self._root.update()
+
+    # Results of another case.
+
+    def compare_with_form(self, *, typed: bool = False) -> None:
+        """Dim what is shown of another case than that of the fields.
+
+        typed: True once the form holds what was typed into its fields.
+        """
+        if self.now is None:
+            return
+        form = self.now.form
+        self._before.text = f"Results of the case before: {self.now.title}"
+        is_other = form is not None and form.table != self.form.table
+        stale = "all" if is_other else self.stale_part()
+        self.js("treadloadStale", stale, typed)
+
+    def stale_part(self) -> str:
+        """Which part of the page follows a run that is shown: "section", or "" where all is of that run."""
+        return ""
 
     # Solving.
 
@@ -201,18 +233,21 @@ class Page:
         if self.client.is_deleted:
             run.ready = run.ready or "ready" in answer
             run.rows, run.warnings = answer.get("rows", run.rows), answer.get("warnings", run.warnings)
-            run.allowed = answer.get("allowed", run.allowed)
+            run.allowed, run.card = answer.get("allowed", run.allowed), answer.get("card", run.card)
             return
         if "stage" in answer:
             self.stage.text = f"{answer['seconds']:.1f} s  {answer['stage']}"
         if "part" in answer:
-            run.rows, run.warnings = answer["rows"], answer["warnings"]
+            run.rows, run.warnings, run.card = answer["rows"], answer["warnings"], answer.get("card")
             self.now = run
             self.drawn(run, answer)
+            self.compare_with_form()
             self.state("drawn", part=answer["part"], **{f"drawn-{answer['part']}": f"{answer['process']:.3f}"})
         if "ready" in answer:
             run.ready = True
             self._count += 1
+            if isinstance(self.left, CaseForm):
+                self.left.upload_solved()
             self.left.clear_problem()
             self.right.show(run, done=True)
             self.state("ready", ready=str(self._count), seconds=f"{answer['seconds']:.3f}",
@@ -220,9 +255,10 @@ class Page:
             self.stage.text = f"solved in {answer['seconds']:.1f} s"
             self.finished(run)
         if "done" in answer:
-            run.allowed = answer.get("allowed", {})
+            run.allowed, run.card = answer.get("allowed", {}), answer.get("card", run.card)
             if self.now is run:
                 self.right.show_allowed(run.allowed)
+                self.right.show_card(run.card)
             self.state("done")
             self.settled()
         if "error" in answer:
@@ -236,8 +272,12 @@ class Page:
             self.state("cancelled" if why == "cancelled" else "failed")
             self.stage.text = why if why == "cancelled" else "not solved"
             if why != "cancelled":
-                self.left.show_problem(why.removeprefix("case: "))
+                why = self.session.in_words(why.removeprefix("case: "))
+                if isinstance(self.left, CaseForm) and self.left.upload_failed():
+                    why = f"{why.rstrip('.')}. The case keeps what it had before."
+                self.left.show_problem(why)
         self._cancel.props("disabled")
+        self.left_undone()
 
     async def cancel(self) -> None:
         """Leave what is being solved, or waits to be."""
@@ -253,6 +293,7 @@ class Page:
         # A run that was ready before its slices were cut stays; so does what another click began meanwhile.
         if self._solving is None and self._root.props.get("data-state") in ("solving", "drawn", "failed"):
             self.state("cancelled")
+        self.left_undone()
 
     # Asking for figures, and taking home.
 

@@ -9,7 +9,8 @@ from typing import Any
 from nicegui import ui
 
 from treadload.app.answers import PageRow
-from treadload.app.elements import plain, text
+from treadload.app.elements import plain, text, with_attributes
+from treadload.app.run_names import names_of
 from treadload.app.session import Run, Session
 
 
@@ -19,7 +20,9 @@ class _Card:
 
     whole: Any
     picture: Any
+    name: Any
     label: Any
+    show: Any
     sides: dict[str, Any]
 
 
@@ -53,12 +56,15 @@ class RunCards:
         runs = {run.name: run for run in self._session.runs.values() if run.ready and run.page == self._page}
         for name in [name for name in self._cards if name not in runs]:
             self._cards.pop(name).whole.delete()
+        titles = names_of(list(runs.values()), self._session.known_as)
         for name, run in runs.items():
             if name not in self._cards:
                 with self._runs:
                     self._cards[name] = self._card(run)
                 self._cards[name].whole.move(target_index=0)
             card = self._cards[name]
+            self._named(card, run, titles[name])
+            with_attributes(card.picture, data_theme=run.thumb_theme)
             if run.thumb and card.picture.props.get("src") != run.thumb:
                 card.picture.props["src"] = run.thumb
                 card.picture.update()
@@ -71,16 +77,26 @@ class RunCards:
         with ui.element("div").classes("run").props('role="listitem"') as whole:
             picture = ui.element("img").props('alt="pressure of this run"')
             with ui.element("div").classes("say"):
-                text("b", run.title)
+                name = text("b", "")
                 label = text("span", "")
             with ui.element("div").classes("line"):
-                plain("show", lambda: self._show(run), label=f"show the run {run.title}")
+                show = plain("show", lambda: self._show(run))
                 sides = {
-                    side: plain(side, lambda side=side: self._choose(side, run),
-                                label=f"take as {side} for a comparison")
+                    side: plain(side, lambda side=side: self._choose(side, run))
                     for side in (("A", "B") if self._compare is not None else ())
                 }  # fmt: skip
-        return _Card(whole, picture, label, sides)
+        return _Card(whole, picture, name, label, show, sides)
+
+    def _named(self, card: _Card, run: Run, title: str) -> None:
+        """Name a card by what sets its run apart from the others, which changes as others come."""
+        run.title = title
+        if card.name.text == title:
+            return
+        card.name.set_text(title)
+        with_attributes(card.name, title=title)
+        with_attributes(card.show, aria_label=f"show the run {title}").update()
+        for side, button in card.sides.items():
+            with_attributes(button, aria_label=f"take as {side} for a comparison, {title}").update()
 
     def _choose(self, side: str, run: Run) -> None:
         self._pair[side] = run

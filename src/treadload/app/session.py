@@ -12,7 +12,7 @@ from collections.abc import AsyncIterator
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from treadload.app.answers import Allowed, Answer, PageRow
+from treadload.app.answers import Allowed, Answer, Card, PageRow
 from treadload.app.engines import Engine, EngineLost, Engines
 from treadload.app.form import Form
 from treadload.errors import InputError
@@ -37,8 +37,8 @@ _STORES = (".zarr", ".zip")
 @dataclass
 class Run:
     """A solved case. page: address of the page that asked for it. rows: of its results. allowed: rows and notes on
-    load repetitions by criterion. unsolved: a sentence on what of its case the page did not solve. thumb: a picture,
-    as data URL.
+    load repetitions by criterion. card: the answer at a glance. unsolved: a sentence on what of its case the page did
+    not solve. thumb: a picture, as data URL, drawn in thumb_theme.
     """
 
     name: str
@@ -48,20 +48,26 @@ class Run:
     rows: list[PageRow] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
     allowed: Allowed = field(default_factory=Allowed)
+    card: Card | None = None
     unsolved: str = ""
     ready: bool = False
     thumb: str = ""
+    thumb_theme: str = "light"
 
 
 @dataclass
 class Session:
-    """One browser. folder: private, emptied with the server. files: name the user knows → name of the kept file."""
+    """One browser. folder: private, emptied with the server.
+
+    files: name the user knows → name of the kept file. replaced: kept file → the kept file of that name before it.
+    """
 
     engines: Engines
     folder: Path = field(default_factory=lambda: Path(tempfile.mkdtemp(prefix="treadload-app-")))
     forms: dict[str, Form] = field(default_factory=dict)
     runs: dict[str, Run] = field(default_factory=dict)
     files: dict[str, str] = field(default_factory=dict)
+    replaced: dict[str, str] = field(default_factory=dict)
     _engines: dict[str, Engine] = field(default_factory=dict)
     _lock: asyncio.Lock = field(default_factory=asyncio.Lock)
     _closed: bool = False
@@ -123,12 +129,20 @@ class Session:
             )
         kept = f"upload_{secrets.token_hex(8)}{suffix}"
         write_whole(self.folder / kept, content)
+        if shown in self.files:
+            self.replaced[kept] = self.files[shown]
         self.files[shown] = kept
         return kept
 
     def known_as(self, kept: str) -> str:
         """The name under which the user knows a file."""
         return next((shown for shown, name in self.files.items() if name == kept), kept)
+
+    def in_words(self, text: str) -> str:
+        """A sentence with the names of files as the user knows them."""
+        for shown, kept in self.files.items():
+            text = text.replace(str(self.folder / kept), shown).replace(kept, shown)
+        return text
 
     def to_toml(self, form: Form) -> str:
         """The case of a form as the user would write it, with the names of their own files."""

@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 
 from nicegui import ui
 
-from treadload.app.answers import Allowed, PageRow
+from treadload.app.answers import Allowed, Card, PageRow
 from treadload.app.elements import heading, plain, text, with_attributes
 from treadload.app.session import Run
 
@@ -33,12 +33,16 @@ class VerdictPanel:
     def build(self) -> None:
         """Put the empty panel on the page."""
         self._all = ui.element("div").props('id="verdict"')
+        with self._all:
+            self._card = ui.element("div").props('id="card"')
         self._program = ui.dialog()
 
     def show(self, run: Run, *, done: bool) -> None:
         """Show the numbers of a run. done: False while the rest is being solved."""
         self._all.clear()
         with self._all:
+            self._card = ui.element("div").props('id="card"')
+            self.show_card(run.card)
             if run.unsolved:
                 ui.label(run.unsolved).classes("warning").props('id="unsolved"')
             self._tables(run.rows)
@@ -60,6 +64,22 @@ class VerdictPanel:
                     )
             if self._has_case:
                 ui.label("NetCDF and report hold what `treadload run` gives; they take some seconds.").classes("note")
+
+    def show_card(self, card: Card | None) -> None:
+        """Show the answer at a glance."""
+        self._card.clear()
+        if card is None:
+            return
+        with self._card, ui.element("div").classes("glance"):
+            with_attributes(text("p", card["headline"]), data_state=card["state"]).classes("headline")
+            with ui.element("dl"):
+                for label, fact in card["facts"]:
+                    text("dt", label)
+                    with_attributes(text("dd", fact), data_fact=label)
+            for line in card["others"]:
+                text("p", line).classes("note")
+            if card["map"]:
+                text("p", card["map"]).classes("note").props('id="bright"')
 
     def show_allowed(self, allowed: Allowed) -> None:
         """Show load repetitions by criterion below the numbers; they are known last."""

@@ -108,6 +108,31 @@ window.treadloadPut = (change) => {
   moved(ends);
 };
 
+// Results of another case than that of the fields: "all" of them, or the "section", which follows the maps.
+let stale = "", edited = false;
+function dim() {
+  const now = edited ? "all" : stale;
+  if (now) document.body.dataset.stale = now; else delete document.body.dataset.stale;
+}
+window.treadloadEdited = () => { edited = true; dim(); };
+window.treadloadStale = (what, typed) => { stale = what; if (typed) edited = false; dim(); };
+
+// The case of a link stands behind "#". It leaves the address once it is read: a page that is loaded again keeps its form.
+window.treadloadLinked = () => {
+  if (!location.hash.startsWith("#case=")) return "";
+  const link = location.hash.slice(1);
+  history.replaceState(null, "", location.pathname + location.search);
+  return link;
+};
+window.addEventListener("hashchange", () => { const link = treadloadLinked(); if (link) emitEvent("link", { link }); });
+window.treadloadLinkTo = async (link) => {
+  const address = `${location.origin}${location.pathname}#${link}`, box = document.getElementById("link");
+  box.value = address;
+  try { await navigator.clipboard.writeText(address); } catch { /* It stands in the box, selected. */ }
+  box.focus();
+  box.select();
+};
+
 window.treadloadFly = (x, y) => {
   const place = maps(), half = 60;
   if (!place) return;

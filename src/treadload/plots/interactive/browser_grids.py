@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Iterable, Mapping, Sequence
-from typing import TypedDict
+from typing import NotRequired, TypedDict
 
 import numpy as np
 import xarray as xr
 
 from treadload.composing import Source, dataset_of
 from treadload.kernels.arrays import Array
-from treadload.plots.kit.plan import KPA, MICRO, Plan, fields_of, plane
+from treadload.plots.interactive.section_rows import SectionRows
+from treadload.plots.kit.layers import Layers
+from treadload.plots.kit.plan import KPA, MICRO, MM, Plan, fields_of, plane
 from treadload.plots.kit.shown import shown
 from treadload.plots.response import VARIABLE
 
@@ -22,7 +24,8 @@ MOST_HELD = 2_000_000
 class Grid(TypedDict):
     """x, y: centres, mm. fields: (ny, nx) each, as base64 of little-endian single floats, in the unit of the figure.
 
-    smooth: read between the centres, or of the cell. step: of points on an oblique line, mm.
+    smooth: read between the centres, or of the cell. step: of points on an oblique line, mm. rows: of a section, see
+    `SectionRows.as_lists`.
     """
 
     x: list[float]
@@ -30,6 +33,7 @@ class Grid(TypedDict):
     fields: list[str]
     smooth: bool
     step: float
+    rows: NotRequired[list[list[float]]]
 
 
 def profile_held(source: Source, overlaid: Mapping[str, Source] | None = None) -> list[Grid]:
@@ -47,11 +51,15 @@ def profile_held(source: Source, overlaid: Mapping[str, Source] | None = None) -
 
 
 def section_held(response: Source, name: str) -> list[Grid]:
-    """Fields, one a depth, whose values along a line are the rows of `depth_slice`. response: over (depth, y, x)."""
+    """Fields, one a depth, from whose values along a line the rows of `depth_slice` are made.
+
+    response: over (depth, y, x).
+    """
     data = dataset_of(response)
     order = np.argsort(data["depth"].to_numpy(), kind="stable")
     values = data[name].transpose("depth", "y", "x").to_numpy() * shown(data[name]).factor
-    return [_grid(Plan.of(data), values[order], smooth=True)]
+    rows = SectionRows.of(data["depth"].to_numpy()[order] * MM, Layers.of(data))
+    return [{**_grid(Plan.of(data), values[order], smooth=True), "rows": rows.as_lists()}]
 
 
 def held_numbers(grids: Iterable[Grid]) -> int:

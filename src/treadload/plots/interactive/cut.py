@@ -15,6 +15,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array, IntArray
 from treadload.kernels.largest import index_of_largest
 from treadload.plots.interactive.drawing import Trace, figure
+from treadload.plots.interactive.section_rows import SectionRows
 from treadload.plots.interactive.theme import Theme, colour_scale, theme_of
 from treadload.plots.kit.layers import Layers
 from treadload.plots.kit.plan import DEPTH_LABEL, KPA, MM, Plan, edges, fields_of, limits, plane
@@ -27,7 +28,7 @@ if TYPE_CHECKING:
 
 # Points on a line: two a cell, and no more.
 _MOST_POINTS = 1200
-_HEIGHT = 300
+_HEIGHT, _SECTION_HEIGHT = 300, 330
 
 
 @dataclass(frozen=True)
@@ -165,15 +166,17 @@ def depth_slice(
     name: str = "principal_strain_1",
     *,
     theme: str | Theme = "light",
-    height: float = _HEIGHT,
+    height: float = _SECTION_HEIGHT,
     whole: bool = False,
 ) -> Figure:
-    """A vertical section of a response below a line, as a Figure of plotly, depth down the page in true scale.
+    """A vertical section of a response below a line, as a Figure of plotly, as wide as its place.
 
     response: over (depth, y, x), or over (depth, point) where the points follow a line. cut: of a map of two
     dimensions; left out, the line on which the response stands. name: of a variable over the depth. whole: True for
-    colours that reach over the whole response, so that they stay while a line moves. Colours stop at interfaces,
-    where stress and strain jump. Returns the figure. Raises InputError with fewer than two depths, or without a line.
+    colours that reach over the whole response, so that they stay while a line moves. Values are linear in depth
+    between the depths of a layer; colours stop at interfaces, where stress and strain jump. Depths have a scale of
+    their own, so that x is that of the profile above. Returns the figure. Raises InputError with fewer than two
+    depths, or without a line.
     """
     look = theme_of(theme)
     data = dataset_of(response)
@@ -189,13 +192,16 @@ def depth_slice(
     reach = data[name].to_numpy() * display.factor if whole else values
     trace, shapes = section_trace(at, values, data, name, display.unit, look, reach)
     words = str(data[name].attrs.get("long_name", display.words))
-    bar = {"title": {"text": display.unit if display.unit != "–" else ""}, "thickness": 11, "outlinecolor": look.rule}
+    bar = {
+        "title": {"text": display.unit if display.unit != "–" else "", "side": "right", "font": {"size": 11}},
+        "thickness": 11, "outlinecolor": look.rule, "outlinewidth": 0.7, "orientation": "h", "tickfont": {"size": 10},
+        "x": 1.0, "xanchor": "right", "y": 1.02, "yanchor": "bottom", "len": 0.42, "nticks": 6,
+    }  # fmt: skip
     layout = {
-        "height": height, "margin": {"l": 62, "r": 20, "t": 40, "b": 50}, "shapes": shapes,
+        "height": height, "margin": {"l": 62, "r": 18, "t": 46, "b": 46}, "shapes": shapes,
         "title": {"text": f"<b>{words[:1].upper()}{words[1:]}</b>", "x": 0.01, "font": {"size": 13}},
-        "xaxis": {"title": {"text": label}, "range": [float(at[0]), float(at[-1])], "constrain": "domain"},
-        "yaxis": {"title": {"text": DEPTH_LABEL}, "autorange": "reversed", "scaleanchor": "x", "scaleratio": 1,
-                  "constrain": "domain"},
+        "xaxis": {"title": {"text": label}, "range": [float(at[0]), float(at[-1])]},
+        "yaxis": {"title": {"text": f"{DEPTH_LABEL}, own scale"}, "autorange": "reversed"},
         "uirevision": "section",
     }  # fmt: skip
     return figure([{**trace, "colorbar": bar}], layout, look)
@@ -204,18 +210,18 @@ def depth_slice(
 def section_trace(
     at: Array, values: Array, data: xr.Dataset, name: str, unit: str, look: Theme, reach: Array
 ) -> tuple[Trace, list[Trace]]:
-    """Cells of a section and lines of its interfaces.
+    """A section and lines of its interfaces.
 
     at: (n,), mm. values: (nz, n) of the variable, in the unit. reach: values that the colours reach over.
     """
     layers = Layers.of(data)
-    down = data["depth"].to_numpy() * MM
-    sides = depth_edges(down, layers)
+    rows = SectionRows.of(data["depth"].to_numpy() * MM, layers)
     finite = reach[np.isfinite(reach)]
     both = name not in VARIABLE.values() and float(finite.min(initial=0.0)) < 0
     scale = limits(np.abs(finite) if both else finite)
     trace: Trace = {
-        "type": "heatmap", "x": edges(at), "y": sides, "z": values.astype(np.float32), "hoverongaps": False,
+        "type": "heatmap", "x": edges(at), "y": rows.edges, "z": rows.between(values).astype(np.float32),
+        "hoverongaps": False,
         "colorscale": colour_scale("signed" if both else "strain", look.name),
         "zmin": -scale.high if both else 0.0, "zmax": scale.high, "name": "section",
         "hovertemplate": f"%{{x:.1f}} mm, %{{y:.1f}} mm deep<br>%{{z:.4~g}} {unit}<extra></extra>",
@@ -223,22 +229,9 @@ def section_trace(
     lines = [
         {"type": "line", "xref": "x domain", "x0": 0, "x1": 1, "y0": depth, "y1": depth,
          "line": {"color": look.ink, "width": 1.2}, "name": "interface"}
-        for depth in layers.interfaces if depth < sides[-1]
+        for depth in layers.interfaces if depth < rows.edges[-1]
     ]  # fmt: skip
     return trace, lines
-
-
-def depth_edges(down: Array, layers: Layers) -> Array:
-    """Edges (nz + 1,) of the rows of a section, mm: half way between depths, but where layers meet."""
-    middle = (down[1:] + down[:-1]) / 2
-    owner = np.zeros(len(down), dtype=int)
-    for number, rows in enumerate(layers.pieces(down)):
-        owner[rows] = number
-    for row in np.nonzero(owner[1:] > owner[:-1])[0]:
-        middle[row] = layers.interfaces[owner[row]]
-    first = down[0] - (middle[0] - down[0]) if down[0] > 0 else 0.0
-    joined: Array = np.concatenate([[max(0.0, first)], middle, [2 * down[-1] - middle[-1]]])
-    return joined
 
 
 def _below(data: xr.Dataset, name: str, cut: Cut | None) -> tuple[Array, str, Array]:

@@ -153,6 +153,9 @@ window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
     const { at, rows } = along(grids[0], cut), last = at.length - 1;
     const sides = at.map((one, n) => (n ? (at[n - 1] + one) / 2 : one - (at[1] - one) / 2));
     sides.push(at[last] + (at[last] - at[last - 1]) / 2);
-    return Plotly.update(place, { x: [sides], z: [rows] }, axis(cut, at), [0]);
+    // Rows between the depths, of one layer each: `plots/interactive/section_rows.py`.
+    const z = grids[0].rows.map(([low, high, share]) => rows[low].map((value, n) =>
+      value === null || rows[high][n] === null ? null : value * (1 - share) + rows[high][n] * share));
+    return Plotly.update(place, { x: [sides], z: [z] }, axis(cut, at), [0]);
   };
 })();
