@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from typing import TypedDict
 
+SOLVES = ("run", "life", "sweep", "network")
+"""Questions that solve, one at a time in a process; all others are answered meanwhile."""
+
+MOST_CASES = 200
+"""Cases of a study that a page starts; more are solved by the command line, which goes on after an interruption."""
+
 
 class PageRow(TypedDict, total=False):
     """A row of a panel. key: of the row. label, value, note: as shown. heading, about: of its block and a tip on it.
@@ -62,6 +68,19 @@ class Dimension(TypedDict):
     values: list[str]
 
 
+class RankedSection(TypedDict):
+    """A section of a network as its table shows it, in words. station: km. governing: or why it failed."""
+
+    number: int
+    rank: str
+    section: str
+    station: str
+    age: str
+    remaining: str
+    life: str
+    governing: str
+
+
 class Drop(TypedDict):
     """A drop of a result of basins, as a list shows it."""
 
@@ -87,7 +106,7 @@ class Answer(TypedDict, total=False):
 
     done, error, stopped: of the last to a question. stage, seconds, process: of progress, with the time and the
     processor time since the question. part, ready: a result that is there, all of them. figures: JSON of plotly.
-    dims, readings, fields, summary: of a study. drops: of basins.
+    dims, readings, fields, summary: of a study. drops: of basins. sections: of a network.
     """
 
     id: int
@@ -115,6 +134,7 @@ class Answer(TypedDict, total=False):
     file: str
     dims: list[Dimension]
     drops: list[Drop]
+    sections: list[RankedSection]
     readings: dict[str, str]
     fields: dict[str, str]
     summary: list[str]

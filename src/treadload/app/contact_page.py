@@ -134,7 +134,7 @@ class ContactPage(Page):
         """The section, until the road below the run is solved."""
         return "section" if self._section_follows else ""
 
-    def settled(self) -> None:
+    def settled(self, run: Run) -> None:
         """The road below the maps is known: cut it."""
         self.stage.text = "solved"
         background_tasks.create(self._cut())

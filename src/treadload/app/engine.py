@@ -24,9 +24,10 @@ from treadload.app.answers import View
 from treadload.app.basin_points import about_basins, basin_figures, basin_rows, basins_of
 from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
-from treadload.app.result_rows import allowed_rows, rows_of
+from treadload.app.result_rows import allowed_rows, page_rows, rows_of
 from treadload.app.stored_run import Stopped, StoredRun, StoredRuns
 from treadload.app.study_points import about_study, point_of, point_rows, study_of
+from treadload.app.study_solver import rank_sections, ranked_sections, solve_study
 from treadload.app.unsolved import left_out
 from treadload.app.verdict_card import card_of
 from treadload.case import Case
@@ -42,7 +43,8 @@ from treadload.steps.chain import run as run_case
 from treadload.steps.footprint import FootprintStep
 from treadload.steps.loaded import contact_of
 from treadload.steps.scene import Options, Progress, Scene, stream
-from treadload.templates import KINDS, first_case
+from treadload.sweeps.network import Network
+from treadload.templates import first_case
 
 # Depths of the block of road below the maps, from which slices along any line are cut.
 _BLOCK_DEPTHS = 12
@@ -68,10 +70,10 @@ class Engine:
         if do == "stop":
             self._stop.set()
             return
-        if do in KINDS:
+        solves = {"run": self._solve, "life": self._life, "sweep": self._sweep, "network": self._network}.get(do)
+        if solves is not None:
             self._wait()
             self._stop.clear()
-            solves = self._solve if do == "run" else self._life
             self._solving = threading.Thread(target=self._guarded, args=(say, solves, request), daemon=True)
             self._solving.start()
             return
@@ -80,6 +82,7 @@ class Engine:
             "tread": self._tread, "export": self._export, "section": self._section, "open": self._open,
             "study": self._study, "point": self._point, "shares": self._shares, "pictures": self._pictures,
             "gallery": self._gallery, "picture": self._picture, "basins": self._basins, "basin": self._basin,
+            "ranked": self._ranked,
         }  # fmt: skip
         self._guarded(say, answers[do], request)
 
@@ -190,6 +193,35 @@ class Engine:
         save_results(result.to_tree(), self.runs.folder / f"{run}.nc")
         say(ready=True, seconds=time.monotonic() - began, process=time.process_time() - used)
         say(done=True)
+
+    def _sweep(self, say: Say, run: str, table: dict[str, object], varied: list[str]) -> None:
+        counts = self._counts(say, "case")
+        solve_study(table, varied, self.runs.folder, self.runs.folder / f"{run}.nc", counts)
+        say(done=True)
+
+    def _network(self, say: Say, run: str, table: dict[str, object], file: str, shown: str) -> None:
+        folder, counts = self.runs.folder, self._counts(say, "section")
+        network = rank_sections(table, folder / file, shown, folder, folder / f"{run}.nc", counts)
+        self.runs.keep(run, StoredRun(None, {"network": network}))
+        say(done=True)
+
+    def _counts(self, say: Say, what: str) -> Callable[[int, int, str], None]:
+        """Progress of many cases, which ends where the user does not want the rest."""
+        began = time.monotonic()
+        say(stage=f"reading what differs from {what} to {what}", seconds=0.0)
+
+        def tell(done: int, total: int, _: str) -> None:
+            if self._stop.is_set():
+                raise Stopped
+            say(stage=f"{what} {done} of {total}", seconds=time.monotonic() - began)
+
+        return tell
+
+    def _ranked(self, say: Say, run: str) -> None:
+        network = self.runs.run_of(run).parts["network"]
+        assert isinstance(network, Network)
+        say(sections=ranked_sections(network), rows=page_rows(network.rows(), "Network"),
+            warnings=list(network.warnings), done=True)  # fmt: skip
 
     def _details(self, stored: StoredRun, criterion: str = "") -> dict[str, object]:
         """Rows, warnings and criteria of a life."""

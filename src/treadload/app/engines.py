@@ -12,9 +12,8 @@ import time
 from collections.abc import AsyncIterator
 from pathlib import Path
 
-from treadload.app.answers import Answer
+from treadload.app.answers import SOLVES, Answer
 from treadload.app.service import Limits
-from treadload.templates import KINDS
 
 # A figure of many cells is one line.
 _LONGEST_LINE = 2**28
@@ -83,7 +82,7 @@ class Engine:
         """
         number, queue = next(self._numbers), asyncio.Queue[Answer | None]()
         self._waiting[number] = queue
-        if do in KINDS:
+        if do in SOLVES:
             self._solving.add(number)
         self.used = time.monotonic()
         until = None if self._seconds is None else asyncio.get_running_loop().time() + self._seconds

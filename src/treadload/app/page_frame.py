@@ -35,12 +35,15 @@ class Page:
 
     Another package registers one as ours are, `@PAGES.register("name")`, and names it as an entry point of
     `treadload.pages`. address: "/name". title: in the head and in the list of pages. command: of the cases that its
-    form makes, "run" or "life"; "" for a page without one.
+    form makes, "run" or "life"; "" for a page without one. has_solve, solve_words: whether a page without a form
+    solves as well, and what its button says.
     """
 
     address: ClassVar[str] = ""
     title: ClassVar[str] = ""
     command: ClassVar[str] = ""
+    has_solve: ClassVar[bool] = False
+    solve_words: ClassVar[str] = "Solve"
     left: Uploads
     right: VerdictPanel
 
@@ -69,9 +72,9 @@ class Page:
                     if address == self.address:
                         link.props('aria-current="page"')
             self.stage = ui.label("starting").classes("stage").props('role="status" aria-live="polite" id="stage"')
-            if self.command:
+            if self.command or self.has_solve:
                 self._cancel = plain("Cancel", self.cancel).props('id="cancel" disabled')
-                plain("Solve", lambda: self.solve(self.form), main=True).props('id="solve"')
+                plain(self.solve_words, self.solve_asked, main=True).props('id="solve"')
             plain("Light or dark", self._other_theme).props('id="theme"')
         self._root = ui.element("div").classes("bench").props('id="bench" data-state="starting" data-ready="0"')
         with self._root:
@@ -101,7 +104,7 @@ class Page:
     def finished(self, run: Run) -> None:
         """All parts of a run are there."""
 
-    def settled(self) -> None:
+    def settled(self, run: Run) -> None:
         """Nothing more comes of a run."""
 
     def left_undone(self) -> None:
@@ -193,6 +196,14 @@ class Page:
 
     # Solving.
 
+    def solve_asked(self) -> None:
+        """The button that solves was pressed."""
+        self.solve(self.form)
+
+    def question_of(self, form: Form) -> tuple[str, dict[str, object]]:
+        """What the process is asked for to solve a form, and the rest of the question."""
+        return form.command, {"table": dict(form.table), "theme": self.theme, **self.view_options()}
+
     def solve(self, form: Form) -> None:
         """Solve a form in the process of the session; what was being solved is left."""
         case = form.check(self.session.folder).case
@@ -200,9 +211,13 @@ class Page:
             if isinstance(self.left, CaseForm):
                 self.left.check()
             return
+        self.start(form, unsolved_sentence(case))
+
+    def start(self, form: Form, unsolved: str = "") -> None:
+        """Begin to solve a form in place of what is being solved. unsolved: see `Run`."""
         if self._solving is not None:
             self._solving.cancel()
-        self._solving = background_tasks.create(self._solve(form, unsolved_sentence(case)))
+        self._solving = background_tasks.create(self._solve(form, unsolved))
 
     async def _solve(self, form: Form, unsolved: str) -> None:
         with self.client:
@@ -213,8 +228,8 @@ class Page:
             self.stage.text = "waiting for the process that solves"
             try:
                 await self.session.stop(self.address)
-                question = {"run": run.name, "table": dict(form.table), "theme": self.theme, **self.view_options()}
-                async for answer in self.session.ask(self.address, form.command, **question):
+                do, question = self.question_of(form)
+                async for answer in self.session.ask(self.address, do, run=run.name, **question):
                     self._hear(run, answer)
             except EngineLost as error:
                 if self.client.is_deleted:
@@ -260,7 +275,7 @@ class Page:
                 self.right.show_allowed(run.allowed)
                 self.right.show_card(run.card)
             self.state("done")
-            self.settled()
+            self.settled(run)
         if "error" in answer:
             self._failed(run, answer["error"])
         if "stopped" in answer and not run.ready:

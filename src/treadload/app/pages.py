@@ -11,6 +11,7 @@ from nicegui import background_tasks, ui
 from treadload.app.basins_page import BasinsPage
 from treadload.app.contact_page import ContactPage
 from treadload.app.life_page import LifePage
+from treadload.app.network_page import NetworkPage
 from treadload.app.page_frame import Page
 from treadload.app.session import Session
 from treadload.app.study_page import StudyPage
@@ -25,7 +26,7 @@ _SHELL = """
 <template id="8431bff7cc77ea8693f8122c6e0981316b936a0a4930625e08b1512d134062bc"></template>
 <script src="./link.js"></script><script type="module" src="./look/bench.js"></script>
 """
-OURS: tuple[type[Page], ...] = (ContactPage, LifePage, StudyPage, BasinsPage)
+OURS: tuple[type[Page], ...] = (ContactPage, LifePage, StudyPage, NetworkPage, BasinsPage)
 LOOK = Path(__file__).parent / "look"
 _ADDRESS = re.compile("/[a-z0-9-]*")
 # Addresses of the server that are no pages.

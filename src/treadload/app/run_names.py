@@ -54,16 +54,21 @@ def _words(
                 return f"without {_label(part)}"
             here = inner
         return f"without {_label(last)}"
+    value = leaves[key]
+    text = ", ".join(map(str, value)) if isinstance(value, list) else known_as(str(value))
+    return f"{name_of_key(key, table)} {text}"
+
+
+def name_of_key(key: str, table: Mapping[str, object]) -> str:
+    """A key of a case in words, with the name of the row that it is in: "wearing course thickness"."""
+    *above, last = key.split(".")
     row: object = table
     called = ""
     for part in above:
         row = row.get(part) if isinstance(row, Mapping) else _row(row, part)
         if isinstance(row, Mapping) and part.isdigit() and last != "name":
             called = f"{row.get('name') or row.get('mix') or f'{int(part) + 1}.'} "
-    label = _label(above[-1] if last in ("kind", "name") and above and not above[-1].isdigit() else last)
-    value = leaves[key]
-    text = ", ".join(map(str, value)) if isinstance(value, list) else known_as(str(value))
-    return f"{called}{label} {text}"
+    return f"{called}{_label(above[-1] if last in ('kind', 'name') and above and not above[-1].isdigit() else last)}"
 
 
 def _row(rows: object, part: str) -> object:

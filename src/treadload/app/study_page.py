@@ -9,9 +9,12 @@ from nicegui import background_tasks, ui
 from treadload.app.answers import Answer, Dimension
 from treadload.app.elements import heading, with_attributes
 from treadload.app.figure_place import Place
+from treadload.app.form import Form
 from treadload.app.gallery import Gallery
 from treadload.app.page_frame import Page
+from treadload.app.run_names import name_of_key
 from treadload.app.session import STUDIES, Run, Session
+from treadload.app.study_form import StudyForm
 from treadload.app.uploads import Uploads
 from treadload.app.verdict_panel import VerdictPanel
 from treadload.registry import PAGES
@@ -19,10 +22,12 @@ from treadload.registry import PAGES
 
 @PAGES.register("study")
 class StudyPage(Page):
-    """A study that was uploaded, at the point where its sliders stand."""
+    """A study that was solved here or uploaded, at the point where its sliders stand."""
 
     address: ClassVar[str] = "/study"
     title: ClassVar[str] = "study"
+    has_solve: ClassVar[bool] = True
+    solve_words: ClassVar[str] = "Solve the study"
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
@@ -32,6 +37,8 @@ class StudyPage(Page):
         self._drawing = self._again = False
         self._moves = 0
         self._gallery = Gallery(self)
+        self._new = StudyForm(session)
+        self._varied: list[str] = []
 
     def inside(self) -> None:
         """The sliders, the figures, what was solved."""
@@ -41,13 +48,14 @@ class StudyPage(Page):
             heading("Study").style("margin-top:4px")
             with ui.element("div").classes("line"):
                 self.left.upload("open a study …", STUDIES, self._opened)
-            self._name = ui.label("").classes("note")
+            self._name = ui.label("").classes("note").props('id="study-name"')
             self._sliders = ui.element("div").props('id="sliders"')
             self._summary = ui.element("div")
+            self._new.build()
         with ui.element("section").classes("centre").props('aria-label="figures of the study"'):
             self._hint = ui.label(
-                "Open what a study gave, as one file: tl.save_results(tl.sweep(…), 'study.nc'). Fields that it "
-                "kept are drawn as maps."
+                "Start a study of the case of the bench or of the life page at the left, or open one that was saved "
+                "as one file: tl.save_results(tl.sweep(…), 'study.nc'). Fields that it kept are drawn as maps."
             )
             self._hint.classes("note")
             self._tools = ui.element("div").classes("tools")
@@ -63,12 +71,33 @@ class StudyPage(Page):
             self.right.build()
 
     async def started(self) -> None:
-        """A study that was opened before is shown."""
+        """A study that was opened or solved before is shown."""
         self.stage.text = "waiting for a study"
         self.state("idle")
         ready = [run for run in self.session.runs.values() if run.page == self.address and run.ready]
         if ready:
             await self._show(ready[-1])
+
+    def solve_asked(self) -> None:
+        """Solve the study that the fields describe."""
+        varied = self._new.varied()
+        if varied is not None:
+            self._varied = varied
+            self.start(self._new.form)
+
+    def question_of(self, form: Form) -> tuple[str, dict[str, object]]:
+        """The case and what varies."""
+        return "sweep", {"table": dict(form.table), "varied": self._varied}
+
+    def name_of(self, form: Form) -> str:
+        """The inputs that vary."""
+        names = (name_of_key(text.partition("=")[0], form.table) for text in self._varied)
+        return f"study of {' and '.join(names)}"
+
+    def settled(self, run: Run) -> None:
+        """The study is solved: show it."""
+        run.ready = True
+        background_tasks.create(self._show(run))
 
     async def _opened(self, kept: str) -> None:
         run = self.session.new_run(None, self.session.known_as(kept), self.address)
