@@ -114,3 +114,29 @@ def within(seconds, bound, what):
     print(f"{what}: {seconds:.3f} s, bound {bound} s, load {os.getloadavg()[0]:.1f}")
     if os.environ.get("TREADLOAD_QUIET"):
         assert seconds < bound, what
+
+
+def in_theme(page, dark):
+    """Bring a page to one of its two themes, and wait until every colour has come to rest."""
+    if page.evaluate("document.body.classList.contains('body--dark')") != dark:
+        page.locator("#theme").click()
+        page.wait_for_function("(dark) => document.body.classList.contains('body--dark') === dark", arg=dark)
+    page.wait_for_function("document.getAnimations().every((one) => one.playState !== 'running')")
+
+
+def axe_faults(visit, dark):
+    """Serious faults that axe finds on a page in one of its themes."""
+    import pytest
+
+    sync_playwright = pytest.importorskip("axe_playwright_python.sync_playwright")
+    page, before = visit.page, list(visit.errors)
+    in_theme(page, dark)
+    found = sync_playwright.Axe().run(page).response
+    # It brings style sheets of its own into the page, which the policy of the page refuses.
+    page.wait_for_timeout(100)
+    visit.errors[:] = before
+    assert found["passes"] or found["violations"]
+    return [
+        (fault["id"], fault["impact"], [node["html"][:160] for node in fault["nodes"]][:4])
+        for fault in found["violations"] if fault["impact"] in ("serious", "critical")
+    ]  # fmt: skip

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from page_visits import within
+from page_visits import axe_faults, in_theme, within
 from treadload.app.case_link import form_of_link, link_of
 from treadload.app.form import Form
 from treadload.case import Case
@@ -305,6 +305,37 @@ def test_a_link_of_another_page_is_told_there(visit):
         assert "page 'life'" in told.inner_text()
     finally:
         other.page.close()
+
+
+@pytest.mark.parametrize("width", [1024, 1440, 2560])
+def test_nothing_is_cut_at_the_sides(visit, width):
+    """Also while results are dimmed, with a wrong field, and in both themes."""
+    page, size = visit.page, visit.page.viewport_size
+    page.set_viewport_size({"width": width, "height": 900})
+    field = typed(page, "rolling.normal_load")
+    was = field.input_value()
+    field.fill("-5")
+    field.press("Enter")
+    page.locator(".q-field--error [role=alert]").first.wait_for()
+    for dark in (False, True):
+        in_theme(page, dark)
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        # The mark of the case before covers no button and no link.
+        free = """() => { const b = document.getElementById('before').getBoundingClientRect();
+          return b.width > 100 && [...document.querySelectorAll('.bar button, .bar a')].every((one) => {
+            const o = one.getBoundingClientRect();
+            return o.right <= b.left || o.left >= b.right || o.bottom <= b.top || o.top >= b.bottom }) }"""
+        assert page.evaluate(free)
+    field.fill(was)
+    field.press("Enter")
+    page.set_viewport_size(size)
+    in_theme(page, False)
+
+
+@pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
+def test_axe_finds_no_fault_on_the_card_and_the_drawing(visit, dark):
+    visit.page.wait_for_selector(FRESH)
+    assert axe_faults(visit, dark) == []
 
 
 def test_nothing_went_wrong(visit):

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
-from page_visits import PATIENCE, Visit, within
+from page_visits import PATIENCE, Visit, axe_faults, in_theme, within
 from tire_meshes import tire_mesh, write
 from treadload.app.form import Form
 from treadload.app.map_figures import block_depths
@@ -327,8 +327,8 @@ def test_garbage_gives_the_sentence_of_the_reader(visit, tmp_path):
     told.wait_for()
     with pytest.raises(TreadloadError) as same:
         tl.Tire.from_scan(path)
-    # The file has a name of ours on the server; all other words are the reader's.
-    assert told.inner_text().split("'")[-1] == str(same.value).split("'")[-1]
+    # The file has its own name, and all other words are the reader's.
+    assert told.inner_text() == f"{str(same.value).replace(str(path), path.name)}. The case keeps what it had before."
 
 
 def test_a_mesh_is_uploaded_and_solved(visit, tmp_path):
@@ -454,14 +454,6 @@ PALE = """() => { const light = (c) => { const v = c.match(/[0-9.]+/g).slice(0, 
     const a = light(getComputedStyle(e).color), b = light(under(e));
     const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05);
     if (ratio < 4.5) bad.push([ratio, e.outerHTML.slice(0, 120)]) } return bad }"""
-
-
-def in_theme(page, dark):
-    """Bring a page to one of its two themes, and wait until every colour has come to rest."""
-    if page.evaluate("document.body.classList.contains('body--dark')") != dark:
-        page.locator("#theme").click()
-        page.wait_for_function("(dark) => document.body.classList.contains('body--dark') === dark", arg=dark)
-    page.wait_for_function("document.getAnimations().every((one) => one.playState !== 'running')")
 
 
 @pytest.mark.parametrize("dark", [False, True])
@@ -593,20 +585,7 @@ def test_a_file_that_is_no_study_is_refused_with_a_sentence(study, tmp_path):
 @pytest.mark.parametrize("dark", [False, True], ids=["light", "dark"])
 @pytest.mark.parametrize("which", ["visit", "life", "study"])
 def test_axe_finds_no_serious_fault(which, dark, request):
-    sync_playwright = pytest.importorskip("axe_playwright_python.sync_playwright")
-    one = request.getfixturevalue(which)
-    page, before = one.page, list(one.errors)
-    in_theme(page, dark)
-    found = sync_playwright.Axe().run(page).response
-    # It brings style sheets of its own into the page, which the policy of the page refuses.
-    page.wait_for_timeout(100)
-    one.errors[:] = before
-    assert found["passes"] or found["violations"]
-    faults = [
-        (one["id"], one["impact"], [node["html"][:160] for node in one["nodes"]][:4])
-        for one in found["violations"] if one["impact"] in ("serious", "critical")
-    ]  # fmt: skip
-    assert faults == []
+    assert axe_faults(request.getfixturevalue(which), dark) == []
 
 
 def test_nothing_went_wrong_in_the_browser(visit, life, study):

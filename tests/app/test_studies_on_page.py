@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 import treadload as tl
+from page_visits import axe_faults
 from treadload.app.form import Form
 from treadload.case import Case
 from treadload.errors import InputError
@@ -104,6 +105,8 @@ def test_a_wrong_range_stands_at_its_field(study):
         ".some((one) => one.innerText.includes('larger than'))"
     )
     assert page.get_attribute("#bench", "data-moves") == before
+    for dark in (False, True):
+        assert axe_faults(study, dark) == []
 
 
 def table_of(page):
@@ -158,6 +161,11 @@ def test_a_table_of_sections_comes_out_ranked(visit, tmp_path):
     told.wait_for()
     assert told.inner_text().split("nonsense")[-1] == str(same.value).split("nonsense")[-1]
     assert table_of(page) == rows
+    for dark in (False, True):
+        assert axe_faults(one, dark) == []
+    for width in (1024, 1440, 2560):
+        page.set_viewport_size({"width": width, "height": 900})
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), width
     assert not one.errors
     page.close()
 
