@@ -22,6 +22,10 @@ WATCH = """() => { window.seen = [];
   new MutationObserver(() => note(document.body.dataset.stale ?? "")).observe(
     document.body, { attributes: true, attributeFilter: ["data-stale"] }) }"""
 FRESH = "body:not([data-stale])"
+# Whether the headline of the card and the numbers below it have the grey of the page's notes.
+COLOURS = """() => { const grey = getComputedStyle(document.querySelector(".bar .stage")).color;
+  return ["#card .headline", "#verdict td:last-child"].map(
+    (name) => getComputedStyle(document.querySelector(name)).color === grey) }"""
 OPACITY = "(name) => +getComputedStyle(document.querySelector(name)).opacity"
 
 
@@ -42,8 +46,11 @@ def test_results_of_another_input_are_dimmed_until_they_are_solved(visit):
     page.wait_for_selector('body[data-stale="all"]')
     (_, start), (_, dimmed) = page.evaluate("seen.slice(0, 2)")
     within((dimmed - start) / 1e3, 0.05, "results dimmed after a letter was typed")
-    for name in (".figure.maps", ".figure.profile", ".figure.section", "#verdict"):
+    for name in (".figure.maps", ".figure.profile", ".figure.section"):
         assert page.evaluate(OPACITY, name) < 0.5, name
+    # Numbers are grey, and can still be read.
+    assert page.evaluate(COLOURS) == [True, True]
+    assert axe_faults(visit, dark=False) == []
     assert page.locator("#before").inner_text() == "Results of the case before: 32.5 kN, 10 kN tractive force"
     # Typed back, they are those of the fields again, and nothing was solved.
     field.fill("32.5")
@@ -56,8 +63,9 @@ def test_results_of_another_input_are_dimmed_until_they_are_solved(visit):
     # The section, which is solved last, is that of the run before for a while.
     visit.done()
     page.wait_for_selector(FRESH)
-    for name in (".figure.maps", ".figure.section", "#verdict"):
+    for name in (".figure.maps", ".figure.section"):
         assert page.evaluate(OPACITY, name) == 1, name
+    assert page.evaluate(COLOURS) == [False, False]
 
 
 def test_a_wrong_number_stands_at_its_field_in_its_unit(visit):

@@ -51,22 +51,22 @@ def form_of_link(link: str, command: str) -> Form:
     if len(packed) > _MOST_LETTERS:
         raise InputError(f"this link has {len(packed)} letters, and {_MOST_LETTERS} are the most; {_AGAIN}")
     try:
-        content = zlib.decompressobj()
-        text = content.decompress(
+        unpacking = zlib.decompressobj()
+        text = unpacking.decompress(
             base64.b64decode(packed + "=" * (-len(packed) % 4), b"-_", validate=True), _MOST_BYTES
         )
-        if content.unconsumed_tail or not content.eof:
+        if unpacking.unconsumed_tail or not unpacking.eof:
             raise InputError(f"this link is cut off, or holds more than {_MOST_BYTES} bytes; {_AGAIN}")
-        held = json.loads(text)
-        table, theirs, yours = held["case"], held["command"], held["yours"]
+        content = json.loads(text)
+        table, command_of_link, yours = content["case"], content["command"], content["yours"]
     except (binascii.Error, zlib.error, UnicodeError, ValueError, KeyError, TypeError, RecursionError) as error:
         if isinstance(error, InputError):
             raise
         raise InputError(f"this link is damaged, so that no case can be read from it; {_AGAIN}") from error
-    if not isinstance(table, Mapping) or theirs not in KINDS or not isinstance(yours, list):
+    if not isinstance(table, Mapping) or command_of_link not in KINDS or not isinstance(yours, list):
         raise InputError(f"this link holds no case; {_AGAIN}")
-    if theirs != command:
-        where = "life" if theirs == "life" else "the bench"
+    if command_of_link != command:
+        where = "life" if command_of_link == "life" else "the bench"
         raise InputError(f"this link holds a case of another page; open it on the page {where!r}")
     form = Form(dict(table), frozenset(str(key) for key in yours), command)
     # Paths of this machine are refused as those of a file of a case are.

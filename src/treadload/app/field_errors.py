@@ -45,19 +45,19 @@ def _nearest(key: str, fields: Iterable[str]) -> str:
 def _named_in(text: str, table: str, fields: Mapping[str, Field], values: Mapping[str, object]) -> str:
     """The field below a table that a sentence names by its key; of several, that which holds the number it got."""
     before = f"{table}." if table else ""
-    found = [
+    matches = [
         path for path in fields
         if path.startswith(before) and values.get(path) is not None
         and re.search(rf"(?<![\w.]){re.escape(_key(path))}(?!\w)", text)
     ]  # fmt: skip
-    got = _GOT.search(text)
-    if got is not None:
-        held = [path for path in found if _holds(fields[path], values.get(path), float(got[1]))]
-        if held:
-            return held[0]
-    first = sorted(found, key=lambda path: (text.index(_key(path)), path.count(".")))
+    number = _GOT.search(text)
+    if number is not None:
+        with_number = [path for path in matches if _holds(fields[path], values.get(path), float(number[1]))]
+        if with_number:
+            return with_number[0]
+    first = sorted(matches, key=lambda path: (text.index(_key(path)), path.count(".")))
     # Of several fields with one name none is meant more than the others.
-    return first[0] if first and len([path for path in found if _key(path) == _key(first[0])]) == 1 else ""
+    return first[0] if first and len([path for path in matches if _key(path) == _key(first[0])]) == 1 else ""
 
 
 def _key(path: str) -> str:
@@ -89,8 +89,8 @@ def in_words_of(text: str, field: Field) -> str:
         return labelled
     # "80 km/h is 22.2" explains a number to whoever writes in SI.
     plain = re.sub(rf"(\d {re.escape(field.unit)}) is [\d.e+]*\d", r"\1 is usual", labelled)
-    own = re.sub(rf"(?<=\d) ?{re.escape(field.unit)}(?![\w/^])", lambda match: f"\0{match[0]}", plain)
-    in_unit = re.sub(rf"(?<= )(?:{spelled})(?![\w/^])", field.unit, own)
+    in_field_unit = re.sub(rf"(?<=\d) ?{re.escape(field.unit)}(?![\w/^])", lambda match: f"\0{match[0]}", plain)
+    in_unit = re.sub(rf"(?<= )(?:{spelled})(?![\w/^])", field.unit, in_field_unit)
     return "".join(_converted(in_unit, field, factor)).replace("\0", "")
 
 

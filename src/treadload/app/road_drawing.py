@@ -73,10 +73,10 @@ def _axles(case: Case) -> list[_Axle]:
         return [_Axle("wheel", ((0.0, 0.0),), width)]
     axles: list[_Axle] = []
     for kind in case.build_traffic().classes:
-        own = width if kind.tire is None else _width_of(kind.tire)
+        tread = width if kind.tire is None else _width_of(kind.tire)
         name = kind.name.partition(", ")[0]
-        if not any(axle.wheels == kind.wheels and axle.width == own for axle in axles):
-            axles.append(_Axle(name, kind.wheels, own))
+        if not any(axle.wheels == kind.wheels and axle.width == tread for axle in axles):
+            axles.append(_Axle(name, kind.wheels, tread))
     return axles[:_AXLES]
 
 

@@ -19,7 +19,7 @@ from treadload.units import repetitions_in_words, years_in_words
 
 Parts = Mapping[str, BaseResult]
 # Criteria beside the governing one that a card lists.
-_OTHERS = 5
+_MOST_LINES = 5
 
 
 def card_of(parts: Parts, allowed: PassesAllowed | None = None) -> Card | None:
@@ -41,11 +41,13 @@ def _of_life(life: Life) -> Card:
     governing, years = life.governing, life.years(life.governing)
     design = life.dataset.attrs.get("design_years")
     names = [criterion.name for criterion in life.criteria]
-    others = [f"{name}: does not govern, {years_in_words(life.years(name))}" for name in names if name != governing][
-        :_OTHERS
+    lines = [f"{name}: does not govern, {years_in_words(life.years(name))}" for name in names if name != governing][
+        :_MOST_LINES
     ]
     if math.isinf(years):
-        return Card(state="meets", headline="No criterion ends the service life", facts=[], others=others, map="")
+        return Card(
+            state="meets", headline="No criterion ends the service life", facts=[], not_governing=lines, map=""
+        )
     state, why = "open", "no design life is given"
     if design is not None:
         state = "meets" if years >= float(design) else "short"
@@ -61,17 +63,21 @@ def _of_life(life: Life) -> Card:
         facts.append(("Place", f"{layer}{deep}, y = {signed(1e3 * float(at['worst_y']), 0)} mm"))
         quantity = criterion.quantity
         facts.append(("Why", f"{quantity}: up to {quantity.in_words(float(at['largest_reading']))}"))
-    return Card(state=state, headline=f"Service life {years_in_words(years)}", facts=facts, others=others, map="")
+    return Card(
+        state=state, headline=f"Service life {years_in_words(years)}", facts=facts, not_governing=lines, map=""
+    )
 
 
 def _of_allowed(allowed: PassesAllowed, parts: Parts) -> Card:
     first = min(allowed.rows, key=lambda line: line.passes)
-    others = [f"{line.name}: does not govern, {_repetitions(line)}" for line in allowed.rows if line is not first]
+    lines = [f"{line.name}: does not govern, {_repetitions(line)}" for line in allowed.rows if line is not first]
     bright = _bright(parts)
     if not math.isfinite(first.passes):
         facts = [("Why", "no criterion evaluates a harmful value under this load")]
         names = [f"{line.name}: does not govern" for line in allowed.rows]
-        return Card(state="meets", headline="No criterion governs", facts=facts, others=names[:_OTHERS], map=bright)
+        return Card(
+            state="meets", headline="No criterion governs", facts=facts, not_governing=names[:_MOST_LINES], map=bright
+        )
     deep = "surface" if first.depth == 0 else f"{first.depth * 1e3:g} mm deep"
     place = ", ".join(part for part in (first.layer, first.place, deep) if part)
     beyond = ", outside the range of its tests" if first.extrapolated else ""
@@ -81,7 +87,7 @@ def _of_allowed(allowed: PassesAllowed, parts: Parts) -> Card:
         ("Why", f"{first.reads}: {first.reads.in_words(first.reading)}{beyond}"),
     ]
     headline = f"{repetitions_in_words(first.passes)} load repetitions"
-    return Card(state="open", headline=headline, facts=facts, others=others[:_OTHERS], map=bright)
+    return Card(state="open", headline=headline, facts=facts, not_governing=lines[:_MOST_LINES], map=bright)
 
 
 def _repetitions(line: Allowed) -> str:
@@ -91,11 +97,15 @@ def _repetitions(line: Allowed) -> str:
 def _of_verdict(verdict: Verdict, parts: Parts) -> Card:
     """The fatigue law of the case alone."""
     data, strain = verdict.dataset, float(verdict.dataset["worst_strain"])
-    others = ["criteria of the layers follow"]
+    lines = ["criteria of the layers follow"]
     if not strain > 0:
         facts = [("Why", verdict.rows()[-1].text)]
         return Card(
-            state="meets", headline="The fatigue law does not govern", facts=facts, others=others, map=_bright(parts)
+            state="meets",
+            headline="The fatigue law does not govern",
+            facts=facts,
+            not_governing=lines,
+            map=_bright(parts),
         )
     x, y, depth = (1e3 * float(data[f"worst_{name}"]) for name in ("x", "y", "depth"))
     deep = f"{depth:.0f} mm deep" if depth > 0 else "surface"
@@ -106,7 +116,7 @@ def _of_verdict(verdict: Verdict, parts: Parts) -> Card:
                 f"{data.attrs.get('reading', 'local')}: {strain * 1e6:.3g} microstrain"),
     ]  # fmt: skip
     headline = f"{repetitions_in_words(float(data['worst_passes']))} load repetitions"
-    return Card(state="open", headline=headline, facts=facts, others=others, map=_bright(parts))
+    return Card(state="open", headline=headline, facts=facts, not_governing=lines, map=_bright(parts))
 
 
 def _bright(parts: Parts) -> str:

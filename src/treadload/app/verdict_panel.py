@@ -76,7 +76,7 @@ class VerdictPanel:
                 for label, fact in card["facts"]:
                     text("dt", label)
                     with_attributes(text("dd", fact), data_fact=label)
-            for line in card["others"]:
+            for line in card["not_governing"]:
                 text("p", line).classes("note")
             if card["map"]:
                 text("p", card["map"]).classes("note").props('id="bright"')
