@@ -55,14 +55,14 @@ def brought(monkeypatch):
 
 
 def test_ours_are_registered():
-    assert [page.address for page in registered_pages()] == ["/", "/life", "/study", "/basins"]
+    assert [page.address for page in registered_pages()] == ["/", "/life", "/study", "/network", "/basins"]
     assert [page.command for page in registered_pages()] == ["run", "life", "", ""]
-    assert set(PAGES.built_in()) == {"bench", "life", "study", "basins"}
+    assert set(PAGES.built_in()) == {"bench", "life", "study", "network", "basins"}
 
 
 def test_a_page_of_another_package_stands_beside_ours(brought):
     brought(tires=TirePage)
-    assert [page.title for page in registered_pages()] == ["the bench", "life", "study", "basins", "tires"]
+    assert [page.title for page in registered_pages()] == ["the bench", "life", "study", "network", "basins", "tires"]
 
 
 @pytest.mark.parametrize(
@@ -71,7 +71,7 @@ def test_a_page_of_another_package_stands_beside_ours(brought):
 def test_a_broken_page_is_named_and_stops_nothing(brought, target, words):
     brought(tires=TirePage, another=target)
     *pages, broken = registered_pages()
-    assert {page.address for page in pages} == {"/", "/life", "/study", "/basins", "/tires"}
+    assert {page.address for page in pages} == {"/", "/life", "/study", "/network", "/basins", "/tires"}
     assert issubclass(broken, BrokenPage)
     assert broken.address == "/broken-another"
     assert "my-pages 1.0" in broken.problem
@@ -81,5 +81,5 @@ def test_a_broken_page_is_named_and_stops_nothing(brought, target, words):
 def test_two_packages_with_one_name_are_named(brought):
     brought(life=TirePage)
     *pages, broken = registered_pages()
-    assert [page.address for page in pages] == ["/", "/life", "/study", "/basins"]
+    assert [page.address for page in pages] == ["/", "/life", "/study", "/network", "/basins"]
     assert "my-pages 1.0" in broken.problem

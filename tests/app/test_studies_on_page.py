@@ -83,7 +83,7 @@ def test_a_study_is_started_and_shown(study):
     assert page.locator("#sliders [data-dim]").count() == 1
     case = Case.from_dict(dict(Form.first().with_values({"spacing": "16 mm"}).table))
     made = sweep(case, from_texts(case, ["rolling.normal_load=20 kN:30 kN:3"]))
-    drawn = page.evaluate("[...document.querySelector('.curve').data[0].y]")
+    drawn = page.evaluate("[...document.querySelector('.curve')._fullData[0].y]")
     largest = made.dataset["largest_pressure"].to_numpy() / 1e3
     np.testing.assert_allclose(drawn, largest, rtol=1e-6)
     assert page.locator(".figure.field.js-plotly-plot").count() == 1
