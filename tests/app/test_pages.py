@@ -56,7 +56,7 @@ def brought(monkeypatch):
 
 def test_ours_are_registered():
     assert [page.address for page in registered_pages()] == ["/", "/life", "/study", "/network", "/basins"]
-    assert [page.command for page in registered_pages()] == ["run", "life", "", ""]
+    assert [page.command for page in registered_pages()] == ["run", "life", "", "", ""]
     assert set(PAGES.built_in()) == {"bench", "life", "study", "network", "basins"}
 
 
