@@ -148,7 +148,7 @@ def test_the_section_is_as_wide_as_its_row_and_smooth_within_layers(visit):
     page.evaluate("treadloadPut({ along: 'x', at: 40 })")
     page.wait_for_function("Array.isArray(document.querySelector('.section').data[0].z)")
     held = page.evaluate(
-        "(({z, y}) => ({z: z.map((row) => [...row]), y: [...y]}))(document.querySelector('.section').data[0])"
+        "(({z, y}) => ({z: z.map((row) => [...row]), y: [...y]}))(document.querySelector('.section')._fullData[0])"
     )
     z, y = np.array(held["z"], dtype=float), np.array(held["y"])
     assert 60.0 in y

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TypedDict
 
-SOLVES = ("run", "life", "sweep", "network")
+from treadload.templates import KINDS
+
+SOLVES = (*KINDS, "sweep", "network")
 """Questions that solve, one at a time in a process; all others are answered meanwhile."""
 
 MOST_CASES = 200
@@ -77,7 +79,7 @@ class RankedSection(TypedDict):
     station: str
     age: str
     remaining: str
-    life: str
+    service_life: str
     governing: str
 
 

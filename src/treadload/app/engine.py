@@ -20,7 +20,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from treadload.app import map_figures
-from treadload.app.answers import View
+from treadload.app.answers import SOLVES, View
 from treadload.app.basin_points import about_basins, basin_figures, basin_rows, basins_of
 from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
@@ -70,10 +70,11 @@ class Engine:
         if do == "stop":
             self._stop.set()
             return
-        solves = {"run": self._solve, "life": self._life, "sweep": self._sweep, "network": self._network}.get(do)
-        if solves is not None:
+        if do in SOLVES:
             self._wait()
             self._stop.clear()
+            many: dict[str, Callable[..., None]] = {"sweep": self._sweep, "network": self._network}
+            solves = many.get(do, self._solve if do == "run" else self._life)
             self._solving = threading.Thread(target=self._guarded, args=(say, solves, request), daemon=True)
             self._solving.start()
             return

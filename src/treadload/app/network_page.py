@@ -23,7 +23,7 @@ from treadload.registry import PAGES
 TABLES = (".csv", ".xlsx")
 _COLUMNS = {
     "rank": "rank", "section": "section", "station": "station km", "age": "age, years", "remaining": "remaining life",
-    "life": "service life", "governing": "governing criterion",
+    "service_life": "service life", "governing": "governing criterion",
 }  # fmt: skip
 # Rows of the table at once.
 _ROWS = 25

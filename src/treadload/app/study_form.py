@@ -19,7 +19,7 @@ from treadload.errors import InputError
 from treadload.units import quantity
 
 # Cases to start from, by the page whose form they are; inputs of one study; values that an input begins with.
-_PAGES = {"/": ("case of the bench", "run"), "/life": ("case of the life page", "life")}
+_PAGES = {"/": "case of the bench", "/life": "case of the life page"}
 _MOST_INPUTS, _COUNT = 3, "5"
 # What is offered first.
 _FIRST = ("rolling.normal_load", "traffic.passes_per_year")
@@ -46,13 +46,12 @@ class StudyForm:
     @property
     def form(self) -> Form:
         """The case that is varied: that of its page, as it stands there."""
-        command = _PAGES[self._page][1]
-        return self._session.forms.get(self._page) or Form.first(command)
+        return self._session.forms.get(self._page) or Form.first(self._page.strip("/") or "run")
 
     def build(self) -> None:
         """Put the fields on the page."""
         heading("Start a study")
-        choosing({page: words for page, (words, _) in _PAGES.items()}, self._page, "vary the", self._chosen)
+        choosing(_PAGES, self._page, "vary the", self._chosen)
         self._rows = ui.element("div").props('id="inputs"')
         with ui.element("div").classes("line"):
             plain("add an input", self._add).props('id="add-input"')
@@ -161,7 +160,7 @@ class StudyForm:
         return texts if is_right and texts else None
 
 
-def _mark(element: Any, wrong: str) -> None:
+def _mark(element: ui.element, wrong: str) -> None:
     """State what is wrong with a field at the field."""
     element.props(remove="error error-message")
     if wrong:

@@ -83,7 +83,7 @@ def ranked_sections(network: Network) -> list[RankedSection]:
                 station="" if math.isnan(place) else f"{place / 1e3:.3f}",
                 age=f"{float(at['section_age']):.3g}",
                 remaining=remaining_in_words(float(at["remaining_years"])) if rank else "–",
-                life=years_in_words(float(at["governing_years"])) if rank else "–",
+                service_life=years_in_words(float(at["governing_years"])) if rank else "–",
                 governing=str(at["governing_criterion"].item()) if rank else str(at["reason"].item()),
             )
         )  # fmt: skip
