@@ -52,13 +52,12 @@ def steps(program: list[str], environment: dict[str, str], validate: bool) -> li
     lines = [line for number, line in enumerate(lines) if line not in lines[:number]]
     found = [("version", [*program, "--version"])]
     found += [(f"{name} --help", [*program, name, "--help"]) for name in commands(program, environment)]
-    found += [
-        (f"README, Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)
-    ]
     found += [("init calibrate", [*program, "init", "calibrate", "-o", "fit.toml"])]
     for line in lines:
         if line[1] not in LEFT_OUT or (validate and line[1] == "validate"):
             found.append((" ".join(line), [*program, *line[1:]]))
+    # Last, as they may open what the commands wrote.
+    found += [(f"Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)]
     return found
 
 

@@ -1,20 +1,23 @@
 """The grid that a contact is solved on: how much it holds, when it grows, when that of a start serves again."""
 
+import os
 import re
+import subprocess
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from treadload.contact import Rolling, contact_grid, solve_contact
+from treadload.contact import Rolling, contact_grid, memory_bound, solve_contact
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.contact_grid import BorderError
 from treadload.contact.solvers import tangential
 from treadload.errors import InputError
 from treadload.grid import Grid
-from treadload.materials import Elastic
+from treadload.materials import Elastic, Prony
 from treadload.pavement import Pavement
-from treadload.tire import Groove, Tire, TreadProfile
+from treadload.tire import Belt, Groove, Tire, TreadProfile
 
 ROAD = Pavement.half_space(Elastic(5.4e9, 0.35))
 RUBBER = Elastic(3e6, 0.5)
@@ -140,14 +143,78 @@ def test_a_start_is_begun_at_and_not_kept(light):
     np.testing.assert_array_equal(heavy.dataset.pressure, own.dataset.pressure)
 
 
-def test_cells_too_many_and_too_few_say_their_bound():
+def test_cells_that_do_not_fit_into_memory_say_estimate_memory_and_remedy(monkeypatch):
+    memory = 2e9
+    monkeypatch.setattr(memory_bound, "memory_of_machine", lambda: memory)
+    with pytest.raises(InputError, match=r"of the 2 GB of memory of this machine; use spacing = ") as caught:
+        placed(wheel(), spacing=1e-5)
+    told = str(caught.value)
+    cells, need = (float(re.search(pattern, told)[1]) for pattern in (r"on (\S+) cells", r"about (\S+) GB"))
+    assert need * 1e9 == pytest.approx(memory_bound._SHEAR * cells, rel=0.01)
+    # What is offered fits, and takes what is allowed, to its two digits.
+    offered = float(re.search(r'spacing = "(\S+) mm"', told)[1]) * 1e-3
+    grid, _ = placed(wheel(), spacing=offered)
+    taken = memory_bound.estimated_memory(TIRE, wheel(), Pair.of(TIRE, ROAD).both, grid)
+    assert 0.75 * 0.8 * memory < taken <= 0.8 * memory
+    monkeypatch.setattr(memory_bound, "memory_of_machine", lambda: 1e5)
+    with pytest.raises(InputError, match="a height map keeps its cells: give one on larger cells"):
+        placed(wheel(), spacing=None, tire=replace(MAP, material=RUBBER))
+
+
+def test_ribs_and_rubber_with_memory_are_estimated_with_more():
+    grid = Grid.centred(0.3, 0.2, 1e-3)
+    elastic = Pair.of(TIRE, ROAD).both
+    base = memory_bound.estimated_memory(TIRE, wheel(), elastic, grid)
+    smooth = memory_bound.estimated_memory(TIRE, Rolling(normal_load=1e3, friction=0.0), elastic, grid)
+    assert smooth < base
+    fading = replace(TIRE, material=Prony.standard_linear_solid(4e6, 3e6, 0.01, 0.5))
+    rolls = Pair.of(fading, ROAD, speed=10.0).both
+    assert memory_bound.estimated_memory(fading, wheel(speed=10.0), rolls, grid) > 2 * base
+    belt = replace(Belt.from_library("315/80R22.5"), tread=Elastic(5.5e6, 0.495))
+    ribs = Tire.from_profile("315/80R22.5", inflation_pressure=820e3, belt=belt, tread="ribs")
+    coarse, fine = (
+        memory_bound.estimated_memory(ribs, wheel(), elastic, Grid.centred(0.3, 0.2, size)) for size in (4e-3, 2e-3)
+    )
+    # Four times the cells, each with twice the rows beside it.
+    assert 4 < fine / coarse < 8
+
+
+def test_the_memory_of_this_machine_is_known():
+    assert 1e8 < memory_bound.memory_of_machine() < 1e15
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform != "linux", reason="the peak of a process is read in a file of Linux")
+@pytest.mark.parametrize("friction", [0.0, 0.7])
+def test_the_estimate_is_the_peak_of_a_process_within_a_third(friction):
+    """A ball on 400 x 400 cells of 0.5 mm, a third of them in contact, beside the process before it solves."""
+    code = f"""
+import re
+from pathlib import Path
+import numpy as np
+import treadload as tl
+import treadload.contact.solve
+from treadload.contact import memory_bound
+from treadload.contact.bodies.choose import Pair
+
+across = (np.arange(400) - 199.5) * 5e-4
+gap = (across[None] ** 2 + across[:, None] ** 2) / 0.6
+tire = tl.Tire.from_height_map(gap, 5e-4, material=tl.Elastic(3e6, 0.5))
+road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+rolling = tl.Rolling(normal_load=5500, friction={friction}, tractive_force={900 * (friction > 0)})
+# The peak that getrusage counts is that of the process which started this one, where that was larger.
+peak = lambda: 1024 * int(re.search(r"VmHWM:\\s+(\\d+) kB", Path("/proc/self/status").read_text())[1])
+before = peak()
+tl.solve_contact(tire, road, rolling)
+print((peak() - before) / memory_bound.estimated_memory(tire, rolling, Pair.of(tire, road).both, tire.fixed_grid))
+"""
+    environment = {**os.environ, "OMP_NUM_THREADS": "1"}
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=environment)
+    assert 2 / 3 < float(ran.stdout) < 4 / 3
+
+
+def test_cells_too_few_say_their_bound():
     length, width = TIRE.extent
-    with pytest.raises(InputError, match="more than 4e\\+06") as caught:
-        placed(wheel(), spacing=1e-4)
-    assert f"{length * width / 1e-8:.3g} cells" in str(caught.value)
-    # What is offered makes as many cells as are allowed, to its two digits.
-    offered = float(re.search(r"use (\S+) mm or more", str(caught.value))[1]) * 1e-3
-    assert length * width / offered**2 == pytest.approx(4e6, rel=0.1)
     narrow = min(length, width)
     assert placed(wheel(), spacing=narrow / 8 * 0.999)[0].ny >= 8
     with pytest.raises(InputError, match="fewer than 8 cells") as caught:

@@ -10,6 +10,7 @@ import numpy as np
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.bounds import check_numbers, check_spacing
+from treadload.contact.memory_bound import check_memory
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.normal import solve_normal
@@ -22,7 +23,6 @@ DEFAULT_SPACING = 3e-3
 NO_OFFSET = (0.0, 0.0)
 _LOCATING_CELLS = 64
 _MARGIN = 0.024
-_MOST_CELLS = 4_000_000
 # Of each tire in use the last place that was looked for, see `_reaches`.
 _REACHES: WeakKeyDictionary[Tire, tuple[tuple[object, ...], tuple[float, float]]] = WeakKeyDictionary()
 
@@ -49,6 +49,7 @@ def place(
         if tuple(offset) != NO_OFFSET:
             raise InputError(f"a height map keeps its own cells, got offset = {offset}; leave it out")
         grid = tire.fixed_grid
+        check_memory(tire, rolling, bodies, grid)
         if spacing is not None and not math.isclose(spacing, grid.dx, rel_tol=1e-9):
             raise InputError(
                 f"the height map has cells of {grid.dx * 1e3:g} mm and keeps them, got spacing = "
@@ -59,12 +60,6 @@ def place(
         return grid, gap
     step = _cell(spacing)
     length, width = tire.extent
-    cells = length * width / step**2
-    if cells > _MOST_CELLS:
-        raise InputError(
-            f"a spacing of {step * 1e3:g} mm makes {cells:.3g} cells of the {length:.2f} x {width:.2f} m tread, "
-            f"more than {_MOST_CELLS:.0e}; use {math.sqrt(length * width / _MOST_CELLS) * 1e3:.2g} mm or more"
-        )
     if step > min(length, width) / 8:
         raise InputError(
             f"a spacing of {step * 1e3:g} mm leaves fewer than 8 cells across the tread of "
@@ -77,6 +72,7 @@ def place(
         step,
         offset=offset,
     )
+    check_memory(tire, rolling, bodies, grid)
     return grid, tire.height_map(grid)
 
 

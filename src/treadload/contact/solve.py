@@ -24,6 +24,7 @@ from treadload.contact.contact_grid import (
 )
 from treadload.contact.fields import Scene, contact_dataset, tangential_of
 from treadload.contact.friction.laws import Coulomb
+from treadload.contact.memory_bound import check_memory
 from treadload.contact.relief import above, caveats_of, check_step, heights_on
 from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
@@ -149,6 +150,7 @@ def solve_search(
             wider = widened(tire, grid, error, search.offset)
             if wider is None:
                 raise
+            check_memory(tire, rolling, bodies.both, wider)
             # Shear of dissimilar bodies has carried the contact beyond its grid.
             grid, gap, near = wider, over.height_map(wider), None
         else:
