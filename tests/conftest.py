@@ -62,3 +62,12 @@ def cache_folder(tmp_path_factory):
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("TREADLOAD_CACHE", str(tmp_path_factory.mktemp("cache")))
         yield
+
+
+@pytest.fixture
+def figures_as_dots(monkeypatch):
+    """Figures of a report are drawn, and in the page each is one pixel: for what else the page holds."""
+    from PIL import Image
+
+    dot = Image.new("RGB", (1, 1))
+    monkeypatch.setattr("treadload.reporting.pictures.raster", lambda figure, **_: dot)

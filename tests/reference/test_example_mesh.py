@@ -1,5 +1,6 @@
 """The meshes that come with treadload and with its tests, against their known dimensions."""
 
+import functools
 import math
 import time
 from pathlib import Path
@@ -61,7 +62,7 @@ def test_example_map(example):
 
 @pytest.mark.parametrize(("path", "radius", "grooves"), [(CITY, 0.526, 4), (DURO, 0.474, 5)])
 def test_other_meshes(path, radius, grooves):
-    quality = Tire.from_scan(path).quality
+    quality = quality_of(path)
     assert quality.crown_radius == pytest.approx(radius, abs=1e-3)
     assert len(quality.grooves) == grooves
     assert not quality.watertight
@@ -105,9 +106,14 @@ def test_grooves_of_the_duro_are_those_of_its_corners():
     exact = [
         0.5 * (corner[a] + corner[b] - corner[c] - corner[d]) for (a, b), (c, d) in zip(ribs, floors, strict=True)
     ]
-    measured = [groove.depth for groove in Tire.from_scan(DURO).quality.grooves]
+    measured = [groove.depth for groove in quality_of(DURO).grooves]
     # The meridian is read every millimetre, and ribs fall 0.1 mm in one.
     assert measured == pytest.approx(exact, abs=0.2e-3)
+
+
+@functools.cache
+def quality_of(path):
+    return Tire.from_scan(path).quality
 
 
 @pytest.mark.parametrize("path", [example_mesh(), CITY, DURO])
@@ -124,7 +130,7 @@ def test_pose_and_scale_are_recovered(tmp_path, path, seed):
     assert np.linalg.norm(away - (away @ turn[:, 1]) * turn[:, 1]) < 0.1e-3
     moved_path = tmp_path / "moved.ply"
     trimesh.Trimesh(moved, mesh.faces, process=False).export(moved_path)
-    here, there = Tire.from_scan(path).quality, Tire.from_scan(moved_path).quality
+    here, there = quality_of(path), Tire.from_scan(moved_path).quality
     assert there.units == "mm"
     assert there.crown_radius == pytest.approx(here.crown_radius, abs=0.2e-3)
     assert there.width == pytest.approx(here.width, abs=0.3e-3)

@@ -617,6 +617,7 @@ def test_every_result_is_written_as_tables(saved, tmp_path):
         assert '"questions"' not in file.read_text()
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_what_is_opened_goes_into_every_verb(tmp_path):
     asked = contact()
     first = tl.solve_response(asked, ROAD, depths=[0.0, 0.08], x=AT, y=AT)
@@ -634,6 +635,7 @@ def test_what_is_opened_goes_into_every_verb(tmp_path):
     assert opened.contact.plot.pressure().axes
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_several_of_a_kind_have_names(tmp_path):
     one, two = contact(), contact(tractive_force=100)
     assert list(tl.results.to_tree([one, two]).children) == ["contact", "contact_2", "asked"]

@@ -179,6 +179,7 @@ def test_captions_say_which_strain_is_drawn(page):
     assert "Drawn: the strain in the horizontal plane" in page.words
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_text_of_the_user_is_escaped(results, tmp_path):
     bad = '<script>alert("x")</script> & $\\frac'
     tree = _only(results["driving"].to_tree(), "contact", "damage")
