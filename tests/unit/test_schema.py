@@ -162,8 +162,8 @@ def test_a_broken_root(tree, tmp_path, attrs, words):
 
 @pytest.mark.parametrize("odd", [np.array([2, 3]), 1.5, "2"])
 def test_a_format_that_is_no_whole_number(tree, tmp_path, odd):
-    wrong = tree.copy()
-    wrong.attrs = {**tree.attrs, "results_format": odd}
+    attrs = {**tree.attrs, "results_format": odd}
+    wrong = xr.DataTree.from_dict({"/": xr.Dataset(attrs=attrs), "/contact": tree["contact"].to_dataset()})
     with pytest.raises(tl.InputError, match="results_format must be a whole number"):
         open_results(save_results(wrong, tmp_path / "odd.nc"))
 

@@ -31,6 +31,7 @@ thickness = "15 mm"
 """
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_a_case_on_texture_runs_is_saved_and_opens_again(tmp_path):
     case = Case.from_text(COARSE_CASE + SPECTRUM)
     assert Case.from_text(case.to_toml()) == case
