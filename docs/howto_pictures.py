@@ -1,10 +1,11 @@
-"""Draw the figures of the how-to pages into docs/images: python docs/howto_pictures.py [name ...].
+"""Draw the figures of the how-to pages into docs/images: python docs/howto_pictures.py [howto_laser ...].
 
-Each function draws the figure of one page, `howto_NAME.png`. Some are those of a gallery script or an example, so
-that both show the same. Pictures of pages in a browser need the extras app and dev, and Chromium. All take ten
-minutes of a processor.
+Each function draws the figure of one page; that of the README's validation is drawn, too. Some figures are those of
+a gallery script or an example, so that both show the same. Pictures of pages in a browser need the extras app and
+dev, and Chromium. All take ten minutes of a processor.
 """
 
+import contextlib
 import runpy
 import shutil
 import subprocess
@@ -26,16 +27,18 @@ DOCS = Path(__file__).parent
 CLONE = DOCS.parent
 IMAGES = DOCS / "images"
 GALLERY = {
-    "backcalculate": "plot_25_backcalculation",
-    "joint": "plot_17_joint",
-    "law_of_your_own": "plot_20_fatigue_laws",
-    "rough_road": "plot_22_texture",
+    "howto_backcalculate": "gallery/plot_25_backcalculation.py",
+    "howto_joint": "gallery/plot_17_joint.py",
+    "howto_law_of_your_own": "gallery/plot_20_fatigue_laws.py",
+    "howto_rough_road": "gallery/plot_22_texture.py",
+    "validation": "validation_gallery/plot_00_overview.py",
 }
 
 
 def of_the_gallery(script: str) -> Figure:
     """The first figure of a gallery script."""
-    names = runpy.run_path(str(DOCS / "gallery" / f"{script}.py"))
+    with contextlib.chdir((DOCS / script).parent):
+        names = runpy.run_path(str(DOCS / script))
     return next(value for value in names.values() if isinstance(value, Figure))
 
 
@@ -268,9 +271,9 @@ DRAWN: tuple[Callable[[Path], Figure | Path], ...] = (
 
 def main(names: list[str]) -> None:
     """Draw the figures of these pages, or all."""
-    drawings = {function.__name__: function for function in DRAWN}
+    drawings = {f"howto_{function.__name__}": function for function in DRAWN}
     for name in names or [*GALLERY, *drawings]:
-        path = IMAGES / f"howto_{name}.png"
+        path = IMAGES / f"{name}.png"
         with tempfile.TemporaryDirectory() as folder:
             drawn = of_the_gallery(GALLERY[name]) if name in GALLERY else drawings[name](Path(folder))
             if isinstance(drawn, Path):
