@@ -10,8 +10,10 @@ At the surface, where ribs end and slide, the exact extension has no bound: its 
 cell and the passes fall with it, as in the paper. The verdict reads its mean over a cube of 10 mm, the size of the
 mix's stones, which has one, in the horizontal plane, where it opens cracks downwards, and only where something is
 tensile: in a stiff course that bends, the largest tensile strain in space is vertical below the wheel, where
-everything is compressed, and opens no crack. Where that leaves nothing on the map, the verdict reads the basin beyond
-it: a wheel that rolls straight bends the surface upwards 0.7 to 0.95 m away.
+everything is compressed, and opens no crack. The assessment evaluates the whole basin around the wheel, and the table
+has the basin's strain where it is larger than the map's: the structure hogs 0.7 to 0.95 m from a wheel that rolls
+straight (8.0 microstrain), climbs (9.3) or brakes (10.1). On the paper's asphalt, which is one material and does not
+hog, the largest strain of a wheel that rolls straight lies 50 mm beside its footprint (6.3).
 
     python examples/roundabout/run.py [folder] [--coarse]
 """
@@ -47,8 +49,8 @@ MANEUVERS = {
 }
 PARKING = "parking turn"
 DEEP = 0.01
-# Roses are drawn on the contact's grid. Further out a road that bends extends too, but less than the threshold: the
-# structure under the straight wheel by 8 microstrain, which is what `assess` reads there.
+# Roses are drawn on the contact's grid. Further out a road that bends is strained too, but by less than the
+# threshold: the structure by 8 to 10 microstrain where the wheel rolls straight, climbs or brakes.
 # Road that extends by less than a fifth of the paper's ε₆ bears it thousands of millions of times.
 THRESHOLD = 24e-6
 

@@ -104,12 +104,13 @@ def depths(results: dict[tuple[str, str], tl.steps.Result]) -> Figure:
     axes = figure.subplots(1, len(places), sharey=True, squeeze=False)[0]
     for axis, place in zip(axes, places, strict=True):
         open_axes(axis)
-        for colour, tire in zip(CASES, TIRES, strict=False):
+        # Narrower lines lie on wider ones, so that those of tires that coincide are all seen.
+        for colour, tire, width in zip(CASES, TIRES, (4.5, 2.8, 1.2), strict=False):
             growth, traffic = results[place, tire].growth, results[place, tire].life.traffic
             years = growth.dataset["risk_years"].to_numpy()
             low, half, high = ([traffic.passes(year) if year < 1e9 else _NEVER for year in row] for row in years)
             axis.fill_betweenx(1e3 * growth.depths, low, high, color=colour, alpha=0.2, linewidth=0)
-            axis.plot(half, 1e3 * growth.depths, color=colour, label=tire)
+            axis.plot(half, 1e3 * growth.depths, color=colour, linewidth=width, label=tire)
         axis.axvline(traffic.passes(traffic.years), color=MUTED, linewidth=0.8, linestyle=":")
         axis.set_xscale("log")
         axis.set_xlim(1e6, _NEVER)

@@ -15,6 +15,11 @@ from treadload.pavement import Pavement
 from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
 
+# Part of the load from which on a side force narrows what is tensile to strips of a few millimetres.
+_SIDE_FORCE = 0.05
+# Largest change of years from cells, m, to those of 0.75 mm, measured under ribs that turn.
+_CELL_ERRORS = {1.5e-3: 0.06, 3e-3: 0.09, 6e-3: 0.19}
+
 
 def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
     """Sentences on mixes that the climate takes beyond their tables: how far, and in which share of the passes."""
@@ -56,6 +61,28 @@ def surface_caveats(road: Pavement, criteria: Sequence[Criterion], tire: Tire, t
     if all(min(criterion.depths(road)) >= SHALLOW for criterion in criteria):
         return ()
     return tuple(sides_in_words([(row.tire or tire).rib_sides for row in traffic.classes]))
+
+
+def cell_caveats(road: Pavement, criteria: Sequence[Criterion], traffic: Traffic, spacing: float) -> tuple[str, ...]:
+    """A sentence on the error of years at the surface by the cells of the contact, m, where wheels have a side force.
+
+    It was measured, see `docs/notes/cells_and_means.md`, and is not computed from the life.
+    """
+    near = [criterion for criterion in criteria if criterion.mean_over and min(criterion.depths(road)) < SHALLOW]
+    pushed = [row.name for row in traffic.classes if abs(row.maneuver.lateral) > _SIDE_FORCE]
+    if not near or not pushed:
+        return ()
+    cells = next((cell for cell in sorted(_CELL_ERRORS) if spacing < 1.01 * cell), max(_CELL_ERRORS))
+    coarser = (
+        "" if spacing < 1.01 * cells else f", the coarsest that were compared; those of {1e3 * spacing:g} mm err more"
+    )
+    return (
+        f"{', '.join(criterion.name for criterion in near)}: a side force ({', '.join(pushed)}) leaves tension in "
+        "strips of a few millimetres across travel, and the years that they govern depend on the cells of the "
+        f"contact: on cells of {1e3 * cells:g} mm by up to {100 * _CELL_ERRORS[cells]:.0f} %, compared with "
+        f"0.75 mm{coarser}. "
+        "Wheels that roll straight, drive or brake: 1 % on 3 mm, 9 % on 6 mm",
+    )
 
 
 def traffic_caveats(tire: Tire, traffic: Traffic, climate: Climate) -> tuple[str, ...]:

@@ -18,7 +18,7 @@ from treadload.damage.life import Life
 from treadload.damage.miner import miner
 from treadload.damage.thermal import DailyCycles
 from treadload.damage.words import CAUSES, DIRECTIONS
-from treadload.life.caveats import beyond_tables, surface_caveats, traffic_caveats
+from treadload.life.caveats import beyond_tables, cell_caveats, surface_caveats, traffic_caveats
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.first_crack import first_cracks
@@ -84,7 +84,7 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     caveats = (
         *_lifts(road, criteria), *traffic_caveats(tire, traffic, climate), *climate.warnings,
         *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
-        *surface_caveats(road, criteria, tire, traffic),
+        *surface_caveats(road, criteria, tire, traffic), *cell_caveats(road, criteria, traffic, design.spacing),
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
 
