@@ -25,26 +25,23 @@ def turning_points(read: Array) -> tuple[Array, Array]:
     read: >= 0, at rest before the first and behind the last column. Lines with fewer peaks end in zeros. At least one
     peak each.
     """
-    lines = np.where(read > _REST * read.max(initial=0.0), read, 0.0)
-    lines = np.pad(lines, ((0, 0), (1, 1)))
-    slope = np.sign(np.diff(lines, axis=1)).astype(np.int8)
-    columns = np.arange(slope.shape[1])
-    # A level stretch goes on as what came before it.
-    last = np.maximum.accumulate(np.where(slope != 0, columns, 0), axis=1)
-    slope = np.take_along_axis(slope, last, axis=1)
-    peak = (slope[:, :-1] > 0) & (slope[:, 1:] < 0)
-    valley = (slope[:, :-1] < 0) & (slope[:, 1:] > 0)
-    counts = peak.sum(axis=1)
+    lines = np.zeros((len(read), read.shape[1] + 2), read.dtype)
+    np.copyto(lines[:, 1:-1], read, where=read > _REST * read.max(initial=0.0))
+    slope = np.diff(lines, axis=1)
+    # A level stretch goes on as what came before it. Every line begins with a rise and ends with a fall.
+    steep = np.flatnonzero(slope)
+    rises = slope.ravel()[steep] > 0
+    turn = np.flatnonzero(rises[1:] != rises[:-1]) + 1
+    row, column = np.divmod(steep[turn], slope.shape[1])
+    peak = ~rises[turn]
+    # The fall that ends a line is followed by the rise that begins the next.
+    valley = ~peak & (steep[turn - 1] >= row * slope.shape[1])
+    values, counts = lines[row, column], np.bincount(row[peak], minlength=len(read))
     most = max(int(counts.max(initial=0)), 1)
-    peaks = np.zeros((len(read), most))
-    row, column = np.nonzero(peak)
-    place = np.arange(len(row)) - np.repeat(np.cumsum(counts) - counts, counts)
-    peaks[row, place] = lines[row, column + 1]
-    valleys = np.zeros((len(read), most - 1))
-    row, column = np.nonzero(valley)
-    between = np.maximum(counts - 1, 0)
-    place = np.arange(len(row)) - np.repeat(np.cumsum(between) - between, between)
-    valleys[row, place] = lines[row, column + 1]
+    peaks, valleys = np.zeros((len(read), most)), np.zeros((len(read), most - 1))
+    for result, chosen, of_line in ((peaks, peak, counts), (valleys, valley, np.maximum(counts - 1, 0))):
+        place = np.arange(int(of_line.sum())) - np.repeat(np.cumsum(of_line) - of_line, of_line)
+        result[row[chosen], place] = values[chosen]
     return peaks, valleys
 
 

@@ -254,16 +254,17 @@ def _cracks(
 
     columns: of the damage after wander at each criterion's worst y, as `Wander.spread_at` counts them.
     """
-    angle, dip = (np.asarray(part, dtype=float) for part in cracks)
-    codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
     shares = np.zeros((len(damage), len(ORIENTATIONS)))
     first = np.empty((2, len(damage)))
     for k, (share, column, top) in enumerate(zip(damage, columns, peak, strict=True)):
+        # One criterion at a time: of many classes and seasons these arrays are large.
+        angle, dip = (np.asarray(part[k], dtype=float) for part in cracks)
+        codes = orientation(angle, dip, OBLIQUE_TOLERANCE)
         for code in range(len(ORIENTATIONS)):
-            part = np.where(codes[k] == code, share, 0.0).sum(axis=(0, 1))
+            part = np.where(codes == code, share, 0.0).sum(axis=(0, 1))
             shares[k, code] = _over(float(wanders[k].spread_at(part, spacing, column)), top)
         most = np.unravel_index(int(share.argmax()), share.shape)
-        first[:, k] = angle[k][most], dip[k][most]
+        first[:, k] = angle[most], dip[most]
     return {
         "first_crack_angle": (("criterion",), first[0]),
         "first_crack_dip": (("criterion",), first[1]),

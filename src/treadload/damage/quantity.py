@@ -264,8 +264,11 @@ def ordered(data: xr.Dataset) -> list[str]:
 
 def part(data: xr.Dataset, name: str) -> Array:
     """A variable over (depth, y, x), or those of them that the dataset has."""
-    # Not the array with its coordinates, which cost more than small fields.
-    values: Array = data.variables[name].transpose(*ordered(data), ...).to_numpy()
+    # Not the array with its coordinates, nor a transposed one where it is in order: they cost more than small fields.
+    variable, dims = data.variables[name], ordered(data)
+    if variable.dims[: len(dims)] != tuple(dims):
+        variable = variable.transpose(*dims, ...)
+    values: Array = variable.values
     return values
 
 

@@ -107,9 +107,14 @@ def _off(true: Array, read: Array, wander: Wander, spacing: float) -> Array:
 
 def _harm(readings: Array, wander: Wander, spacing: float) -> Array:
     """Harm across the road (power, road, y) of peaks less valleys (road, turn, y), after wander."""
-    sign = np.where(np.arange(readings.shape[1]) % 2, -1.0, 1.0)[:, None]
-    powers = [(sign * np.maximum(readings, 0.0) ** power).sum(axis=1) for power in _POWERS]
-    return wander.spread(np.array(powers), spacing)
+    above = readings > 0
+    # Turns and places where nothing is read are many.
+    turns, columns = (np.flatnonzero(above.any(axis=axes)) for axes in ((0, 2), (0, 1)))
+    sign, read = np.where(turns % 2, -1.0, 1.0)[:, None], np.maximum(readings[:, turns[:, None], columns], 0.0)
+    harm = np.zeros((len(_POWERS), len(readings), readings.shape[2]))
+    for part, power in zip(harm, _POWERS, strict=True):
+        part[:, columns] = (sign * read**power).sum(axis=1)
+    return wander.spread(harm, spacing)
 
 
 def over_the_climate(warmth: Array | None, kept: list[int], rest: Array, turns: int) -> Array:
@@ -140,10 +145,19 @@ def curves(warmth: Array, values: Array, axis: int) -> Callable[[Array], Array]:
 
     These go through about the logarithm of the values, of which strains are smoother functions.
     """
-    if warmth.ndim == 1:
-        curve: Callable[[Array], Array] = scipy.interpolate.PchipInterpolator(warmth, values, axis=axis)
-        return curve
     ahead = np.moveaxis(values, axis, 0)
+    if warmth.ndim == 1:
+        flat = ahead.reshape(len(ahead), -1)
+        # Turns and places where nothing is read are many.
+        read_somewhere = np.flatnonzero(flat.any(axis=0))
+        curve = scipy.interpolate.PchipInterpolator(warmth, flat[:, read_somewhere])
+
+        def single(at: Array) -> Array:
+            whole = np.zeros((len(at), flat.shape[1]))
+            whole[:, read_somewhere] = curve(at)
+            return np.moveaxis(whole.reshape(len(at), *ahead.shape[1:]), 0, axis)
+
+        return single
     linear = _LINEAR * float(np.abs(values).max()) or 1.0
     surfaces = scipy.interpolate.RBFInterpolator(
         warmth, np.arcsinh(ahead.reshape(len(ahead), -1) / linear), kernel="cubic", degree=1

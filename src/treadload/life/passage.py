@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from typing import Any
@@ -87,14 +87,21 @@ def solve_passings(tasks: Sequence[Passing], pool: Executor, count: Counter, thr
 
     threads: that the pool has.
     """
-    solved: dict[int, Array] = {}
-
-    def solve(members: list[int]) -> None:
-        for number, passage in zip(members, passages([tasks[k] for k in members]), strict=True):
-            solved[number] = count.after(passage, "response")
-
-    list(pool.map(solve, batches(tasks, threads)))
+    solved = dict(stream_passings(tasks, pool, count, threads))
     return [solved[number] for number in range(len(tasks))]
+
+
+def stream_passings(
+    tasks: Sequence[Passing], pool: Executor, count: Counter, threads: int = 1
+) -> Iterator[tuple[int, Array]]:
+    """The number of each task and its result, batch by batch, so that not all results are held; else as above."""
+
+    def solve(members: list[int]) -> list[tuple[int, Array]]:
+        solved = passages([tasks[k] for k in members])
+        return [(number, count.after(passage, "response")) for number, passage in zip(members, solved, strict=True)]
+
+    for batch in pool.map(solve, batches(tasks, threads)):
+        yield from batch
 
 
 def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
@@ -316,7 +323,7 @@ def _at(
     # xarray's own way costs more than what is read.
     points = np.arange(len(instant)) if rows is None else rows
     return {
-        str(name): (("y", *map(str, field.dims[3:])), field.to_numpy()[deep, points, instant])
+        str(name): (("y", *map(str, field.dims[3:])), field.values[deep, points, instant])
         for name, field in data.variables.items()
         if field.dims[:3] == _DIMS
     }

@@ -18,7 +18,7 @@ from treadload.life.caveats import bond_caveats
 from treadload.life.climate import nodes, over_the_climate, warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
-from treadload.life.passage import ANGLE, BEHIND, BORDER, DEPTH, DIP, Passing, solve_passings, turns_of
+from treadload.life.passage import ANGLE, BEHIND, BORDER, DEPTH, DIP, Passing, stream_passings, turns_of
 from treadload.life.seasons import laws_of, layer_temperatures, roads_of
 from treadload.life.threads import how_many, pool_of
 from treadload.life.wheels import Wheels, across, check_speed, states_of, wheels_of
@@ -105,9 +105,8 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
                 Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns, reach)
                 for row, number, numbers in tasks
             ]
-            for (row, number, numbers), read in zip(
-                tasks, solve_passings(passings, pool, count, threads), strict=True
-            ):
+            for task, read in stream_passings(passings, pool, count, threads):
+                row, number, numbers = tasks[task]
                 values[row, number, numbers] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))

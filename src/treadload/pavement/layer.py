@@ -7,7 +7,15 @@ from numbers import Real
 
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
-from treadload.materials import Anisotropic, ElastoPlastic, Material, Solid, StressDependent, TemperatureDependent
+from treadload.materials import (
+    Anisotropic,
+    Elastic,
+    ElastoPlastic,
+    Material,
+    Solid,
+    StressDependent,
+    TemperatureDependent,
+)
 from treadload.materials.kinds import AnyElastic, elastic_part
 from treadload.pavement.bonds import BONDED, BondLaw
 
@@ -79,6 +87,9 @@ class Layer:
 
         Raises InputError for one that needs a temperature or loads.
         """
+        if isinstance(self.material, Elastic):
+            # Of nearly all layers, often asked for; whether it follows a protocol takes longer.
+            return self.material
         if isinstance(self.material, TemperatureDependent):
             raise InputError(
                 f"layer {self.name!r} depends on temperature ({self.material}): choose one first with "
