@@ -70,11 +70,20 @@ def _of_life(life: Life) -> Card:
 
 def _of_allowed(allowed: PassesAllowed, parts: Parts) -> Card:
     first = min(allowed.rows, key=lambda line: line.passes)
-    lines = [f"{line.name}: does not govern, {_repetitions(line)}" for line in allowed.rows if line is not first]
+    repeated = {line.name for line in allowed.rows if sum(line.name == row.name for row in allowed.rows) > 1}
+    # One law of several layers is named with the layer.
+    called = {
+        row: f"{line.name}, {line.layer}" if line.name in repeated else line.name
+        for row, line in enumerate(allowed.rows)
+    }
+    lines = [
+        f"{called[row]}: does not govern, {_repetitions(line)}"
+        for row, line in enumerate(allowed.rows) if line is not first
+    ]  # fmt: skip
     bright = _bright(parts)
     if not math.isfinite(first.passes):
         facts = [("Why", "no criterion evaluates a harmful value under this load")]
-        names = [f"{line.name}: does not govern" for line in allowed.rows]
+        names = [f"{name}: does not govern" for name in called.values()]
         return Card(
             state="meets", headline="No criterion governs", facts=facts, not_governing=names[:_MOST_LINES], map=bright
         )
