@@ -26,6 +26,7 @@ import xarray as xr
 
 from treadload.errors import InputError, nearest
 from treadload.registry import COMPARISONS, FIGURES, RESULTS, Entry, Registry
+from treadload.us_units import display_units
 
 Draw = TypeVar("Draw", bound=Callable[..., object])
 Words = str | Callable[[xr.Dataset], str]
@@ -33,11 +34,15 @@ Words = str | Callable[[xr.Dataset], str]
 
 @dataclass(frozen=True)
 class Drawing:
-    """A picture of a figure in a report. options: of its function. title, caption: in place of the figure's."""
+    """A picture of a figure in a report. options: of its function. title, caption: in place of the figure's.
+
+    negligible: why there is nothing to see, a sentence that a report has in place of the picture.
+    """
 
     options: Mapping[str, object] = field(default_factory=dict)
     title: str = ""
     caption: str = ""
+    negligible: str = ""
 
 
 When = Callable[..., bool | Iterable[Drawing]]
@@ -56,16 +61,22 @@ class RegisteredFigure:
     main: bool = False
     wide: bool = False
     order: float = math.inf
+    answers: bool = False
 
     def drawings(self, data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> list[Drawing]:
         """Its pictures in a report. data: of the result. beside: other results of the case by their kind."""
-        if not self.title:
-            return []
-        return self._drawings(data, (data, beside))
+        return [drawing for drawing in self._all(data, beside) if not drawing.negligible]
+
+    def negligible(self, data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> list[Drawing]:
+        """Its pictures that show nothing, with the reason of each. data, beside: as of `drawings`."""
+        return [drawing for drawing in self._all(data, beside) if drawing.negligible]
 
     def drawings_of_several(self, datasets: list[xr.Dataset]) -> list[Drawing]:
         """Pictures of a comparison. datasets: of the same class, each of another case."""
         return self._drawings(datasets[0], (datasets,))
+
+    def _all(self, data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> list[Drawing]:
+        return self._drawings(data, (data, beside)) if self.title else []
 
     def _drawings(self, data: xr.Dataset, arguments: tuple[object, ...]) -> list[Drawing]:
         wanted: bool | Iterable[Drawing] = True
@@ -78,6 +89,7 @@ class RegisteredFigure:
                 drawing.options,
                 drawing.title or _text(self.title, data),
                 drawing.caption or _text(self.caption, data),
+                drawing.negligible,
             )
             for drawing in each
         ]
@@ -92,6 +104,7 @@ def figure(
     main: bool = False,
     wide: bool = False,
     order: float = math.inf,
+    answers: bool = False,
 ) -> Callable[[Draw], Draw]:
     """Decorator of a function that draws results: its first argument is one of them, or its dataset.
 
@@ -100,13 +113,14 @@ def figure(
     function of the dataset, and of the other results of the case by kind if it takes two arguments: True where the
     figure is shown, or the pictures that are, each a `Drawing`; left out, always. main: the figure that a notebook
     shows small. wide: takes the full width of a page. order: of the figures of a result; left out, as registered.
+    answers: the figure that a report begins with; left out, the main one is.
     Raises InputError for a name that another function has already.
     """
 
     def keep(draw: Draw) -> Draw:
         for result in results:
             called = name or draw.__name__
-            kept = RegisteredFigure(draw, result, called, title, caption, when, main, wide, order)
+            kept = RegisteredFigure(draw, result, called, title, caption, when, main, wide, order, answers)
             _keep(FIGURES, f"{result}.{called}", draw, kept)
         return draw
 
@@ -114,16 +128,17 @@ def figure(
 
 
 def comparison(
-    result: str, *, title: str, caption: str, when: When | None = None, wide: bool = True
+    result: str, *, title: str, caption: str, when: When | None = None, wide: bool = True, answers: bool = False
 ) -> Callable[[Draw], Draw]:
     """Decorator of a function that draws results of several cases: their datasets first, then a label of each.
 
-    result: name of their class. when: function of the list of datasets, as of `figure`. title, caption, wide: as
-    there. A function that is a figure as well is not drawn for each case once more. Raises InputError as `figure`.
+    result: name of their class. when: function of the list of datasets, as of `figure`. title, caption, wide,
+    answers: as there. A function that is a figure as well is not drawn for each case once more. Raises InputError as
+    `figure`.
     """
 
     def keep(draw: Draw) -> Draw:
-        kept = RegisteredFigure(draw, result, draw.__name__, title, caption, when, wide=wide)
+        kept = RegisteredFigure(draw, result, draw.__name__, title, caption, when, wide=wide, answers=answers)
         _keep(COMPARISONS, f"{result}.{draw.__name__}", draw, kept)
         return draw
 
@@ -154,7 +169,10 @@ def classes_of(name: str) -> tuple[str, ...]:
 
 
 class Plots:
-    """Figures of a result: `result.plot.NAME(...)` draws one, `dir(result.plot)` lists them."""
+    """Figures of a result: `result.plot.NAME(...)` draws one, `dir(result.plot)` lists them.
+
+    Each takes `units="us"` besides its own options, for axes, colour bars and texts in US units.
+    """
 
     def __init__(self, result: object) -> None:
         self._result = result
@@ -241,11 +259,17 @@ def _refuse(message: str, *_: object, **__: object) -> object:
 
 
 def _bound(registered: RegisteredFigure, result: object) -> Callable[..., object]:
-    """A drawing function with its result, its docstring, and its signature without the result."""
+    """A drawing function with its result, its docstring, and its signature without the result.
+
+    units of its options: "si" or "us", of display; left out, those of `us_units.display_units`.
+    """
 
     @functools.wraps(registered.draw)
-    def draw(*arguments: object, **options: object) -> object:
-        return registered.draw(result, *arguments, **options)
+    def draw(*arguments: object, units: str | None = None, **options: object) -> object:
+        if units is None:
+            return registered.draw(result, *arguments, **options)
+        with display_units(units):
+            return registered.draw(result, *arguments, **options)
 
     if isinstance(registered.draw, functools.partial):
         return draw

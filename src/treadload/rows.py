@@ -14,7 +14,7 @@ from typing import SupportsFloat, TypedDict
 
 import numpy as np
 
-from treadload.us_units import display_units, in_display_units, us_unit
+from treadload.us_units import display_units, in_display_units, sentence_in_display_units, us_unit
 from treadload.variables import SCALES, Display, display_of
 
 _WIDEST, _LONGEST = 34, 26
@@ -61,7 +61,7 @@ class Row:
     def number(self) -> str:
         """The value in its display unit, without the unit where that is fixed."""
         if isinstance(self.value, str):
-            return self.value
+            return sentence_in_display_units(self.value)
         if math.isnan(self.value):
             return "–"
         if callable(self.form):
@@ -93,7 +93,8 @@ class Row:
     @property
     def remark(self) -> str:
         """Place and note; empty without either."""
-        return ", ".join(filter(None, (f"at {self.place}" if self.place else "", self.note)))
+        note = sentence_in_display_units(self.note)
+        return ", ".join(filter(None, (f"at {self.place}" if self.place else "", note)))
 
 
 def row(
@@ -142,7 +143,7 @@ def as_text(rows: Sequence[Row], warnings: Iterable[str] = ()) -> str:
             f"{indent}{member.label:<{column}}  {member.sentence}" if member.label else member.sentence
             for member in members
         ]
-    return "\n".join(lines + [f"warning: {text}" for text in warnings])
+    return "\n".join(lines + [f"warning: {sentence_in_display_units(text)}" for text in warnings])
 
 
 def blocks_of(rows: Sequence[Row]) -> list[list[list[Row]]]:

@@ -11,6 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 import xarray as xr
+from matplotlib.axes import Axes
 from PIL import Image
 
 import treadload as tl
@@ -33,6 +34,7 @@ from treadload.life.layered_climate import climate_fields
 from treadload.life.reliability.fields import Fit, reliability_dataset
 from treadload.life.reliability.inputs import inputs_of
 from treadload.life.reliability.propagation import Quadratic
+from treadload.plots.kit.us_figure import texts_of
 from treadload.reporting.reading import ReportCase
 from treadload.results import Fields, Footprint, as_tree
 from treadload.results.holding import check_dataset
@@ -41,6 +43,7 @@ from treadload.sweeps.design import listed, product
 from treadload.sweeps.network.solve import network_of
 from treadload.sweeps.screening import answers
 from treadload.tire.grooves import Groove, LateralGrooves
+from treadload.us_units import display_units
 from treadload.variables import VARIABLES, dataset, display_of, in_order
 
 RUBBER = tl.Elastic(3e6, 0.5)
@@ -607,6 +610,39 @@ def test_every_result_is_reported(saved, tmp_path, monkeypatch):
     again = tl.report(opened, tmp_path / "again.html").read_text()
     assert "could not be drawn" not in again
     assert page.count("<figure") == again.count("<figure") > 0
+
+
+# SI units that a number, a label or a tick of a report in US units must not have; J/m, W, s, Hz and % stay.
+SI_ALONE = {"Pa", "kPa", "MPa", "GPa", "mm", "µm", "kN", "°C", "J/m³", "J/m²", "kJ/m²"}
+SI = re.compile(
+    r"(?<![\w.^])\d[\d.]*[ \u00a0\u202f]?(?:[kMG]?Pa|[kM]?N(?: m)?|[mcµk]?m[²³]?|°C|km/h|k?J/m[²³])(?![\w°²³√/·%^-])"
+    r"|\((?:[kMG]?Pa|k?N(?: k?m)?|[mcµk]?m[²³]?|°C|km/h|k?J/m[²³])\)"
+)
+
+
+def test_every_figure_of_a_report_is_in_us_units(saved, tmp_path, monkeypatch):
+    figures = []
+
+    def kept(figure, dpi):
+        figures.append(figure)
+        return Image.new("RGB", (1, 1), "white")
+
+    monkeypatch.setattr("treadload.reporting.pictures.raster", kept)
+    result, _ = saved
+    with display_units("us"):
+        page = tl.report(result, tmp_path / "us.html").read_text("utf-8")
+    assert figures
+    for figure in figures:
+        figure.draw_without_rendering()
+        ticks = [
+            text for ax in figure.findobj(Axes) for axis in ax._axis_map.values() for text in axis.get_ticklabels()
+        ]
+        texts = [text.get_text() for text in (*texts_of(figure), *ticks)]
+        assert [text for text in texts if SI.search(text) or text in SI_ALONE] == []
+    # Captions, headings and numbers beside them, without what a case says of itself and the literature.
+    words = re.sub(r"<(style|pre|ol)\b.*?</\1>|<img [^>]*>", "", page, flags=re.DOTALL)
+    words = html.unescape(re.sub(r"<[^>]+>", " ", words))
+    assert [words[max(0, m.start() - 40) : m.end() + 20] for m in SI.finditer(words)] == []
 
 
 def test_every_result_is_written_as_tables(saved, tmp_path):

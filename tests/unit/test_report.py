@@ -209,7 +209,7 @@ def test_absent_groups_are_left_out(results, tmp_path):
         page = _Page(write_report({"part": part}, tmp_path / "part.html").read_text(encoding="utf-8"))
         assert page.images >= 2
         if kept != ["damage"]:
-            assert "No verdict" in page.words
+            assert "No assessment" in page.words
 
 
 def test_measured_footprint_with_pressure_only(results, tmp_path):

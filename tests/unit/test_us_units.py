@@ -9,7 +9,7 @@ import pytest
 
 from treadload.errors import InputError
 from treadload.rows import Place, Row, as_json, as_text, from_json, row
-from treadload.us_units import US_UNITS, display_units, us_unit
+from treadload.us_units import US_UNITS, display_units, sentence_in_display_units, us_unit
 from treadload.variables import SCALES, VARIABLES, display_of
 
 # Unit of display → the same unit and the US unit, in the words of pint.
@@ -22,11 +22,11 @@ PINT = {
     "N/kN": ("N/kN", "lbf/kip"), "MPa√m": ("MPa*m**0.5", "ksi*inch**0.5"), "J": ("J", "ft*lbf"),
     "J/m²": ("J/m**2", "ft*lbf/ft**2"), "kJ/m²": ("kJ/m**2", "ft*lbf/ft**2"),
     "J/m³": ("J/m**3", "ft*lbf/ft**3"), "km/h": ("km/h", "mile/hour"), "°C": ("degC", "degF"),
-    "K": ("kelvin", "delta_degF"),
+    "K": ("kelvin", "delta_degF"), "kW/m²": ("kW/m**2", "W/inch**2"),
 }  # fmt: skip
 # Read once: a registry takes a fifth of a second.
 UNITS = pint.UnitRegistry()
-STAY = {"", "J/m", "microstrain", "%", "°", "W", "kW/m²", "s", "years"}
+STAY = {"", "J/m", "microstrain", "%", "°", "W", "s", "years"}
 NUMBER = re.compile(r"[-+]?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -128,9 +128,41 @@ def test_files_keep_si_and_rows_of_files_are_converted():
     assert [line.text for line in from_json(written)] == ["812 kPa", "12.00 mm", "Coulomb, 0.7"]
 
 
-def test_a_text_is_left_as_it_is():
+def test_the_text_and_the_note_of_a_row_are_converted():
+    stated = Row("grid", "grid", "cells of 2 mm", note="on a base of 200 mm")
     with display_units("us"):
-        assert Row("grid", "grid", "cells of 2 mm").text == "cells of 2 mm"
+        assert stated.sentence == "cells of 0.08 in, on a base of 7.87 in"
+        assert as_text([stated], ["5 mm is too coarse"]).splitlines()[1] == "warning: 0.20 in is too coarse"
+    assert stated.sentence == "cells of 2 mm, on a base of 200 mm"
+
+
+@pytest.mark.parametrize(
+    ("si", "us"),
+    [
+        ("peak 812 kPa", "peak 118 psi"),
+        ("x = \u221248.0, y = \u2212123.0 mm", "x = \u22121.890, y = \u22124.843 in"),
+        ("mean over 10 mm, at depth 0, 20 mm", "mean over 0.39 in, at depth 0, 0.79 in"),
+        ("criterion 2, 15 mm deep", "criterion 2, 0.59 in deep"),
+        ("79 x 107 cells of 3 x 3 mm", "79 x 107 cells of 0.12 x 0.12 in"),
+        ("10 to 20 mm, 5\u20137 mm", "0.39 to 0.79 in, 0.20\u20130.28 in"),
+        ("between 3 and 5 mm", "between 0.12 and 0.20 in"),
+        ("friction 0.3 and 20 kN", "friction 0.3 and 4.5 kip"),
+        ("\u03bcP = 0.3 x 20000 N", "\u03bcP = 0.3 x 4496 lbf"),
+        ("31\u202f674 mm\u00b2", "49.09 in\u00b2"),
+        ("E = 5400 MPa, 1.2 MPa", "E = 783 ksi, 174 psi"),
+        ("1.2\u00d710\u2075 Pa", "1.74\u00d710\u00b9 psi"),
+        ("\u22125 \u00b0C, +1 \u00b0C, by 1 \u00b0C", "23 \u00b0F, +1.8 \u00b0F, by 1.8 \u00b0F"),
+        ("0 mm deep", "0 in deep"),
+        ("4 J/m, 3 kN/m\u00b3, 20 m/s, 120 microstrain", "4 J/m, 3 kN/m\u00b3, 20 m/s, 120 microstrain"),
+        ("50 kN m/rad, 80 kN", "37 kip ft/rad, 18 kip"),
+        ("the 3 months, 2 N-type and 12 Nm", "the 3 months, 2 N-type and 12 Nm"),
+    ],
+)
+def test_numbers_of_a_sentence(si, us):
+    assert sentence_in_display_units(si) == si
+    with display_units("us"):
+        assert sentence_in_display_units(si) == us
+        assert sentence_in_display_units(us) == us
 
 
 def test_the_setting_ends_with_its_block_even_by_an_error():

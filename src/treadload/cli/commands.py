@@ -77,7 +77,7 @@ def _root(
     units: Annotated[
         str,
         typer.Option(
-            help="Units of the numbers in summaries and reports: si or us. Files of results stay in SI units.",
+            help="Units of summaries, reports and figures: si or us. Files of results stay in SI units.",
             envvar="TREADLOAD_UNITS",
         ),
     ] = "si",

@@ -83,20 +83,26 @@ def _kinds() -> Table:
 
 def demo(
     output: Annotated[Path, typer.Option("--output", "-o", help="Folder to write.")] = Path("demo"),
+    units: shell.Units = None,
     quiet: shell.Quiet = False,
 ) -> None:
     """A real truck tire, rolling freely and driving: results, figures and a report."""
     from treadload.demo import run_demo
+    from treadload.us_units import sentence_in_display_units
 
+    if units is not None:
+        shell.choose_units(units)
     try:
         with stages(shell.err, quiet=quiet) as tell:
-            result = run_demo(output, progress=tell)
+            result = run_demo(output, progress=tell, units=shell.chosen_units())
     except KeyboardInterrupt:
         raise KeyboardInterrupt(
             f"the files in {output} are whole; the same command makes all of them again"
         ) from None
-    heading, *rows = result.table
-    table = Table(*heading, title="A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
+    with shell.in_chosen_units():
+        heading, *rows = result.table
+        title = sentence_in_display_units("A 335/65R22.5 truck tire at 32.5 kN on asphalt, friction 0.7")
+    table = Table(*heading, title=title)
     for row in rows:
         table.add_row(*row)
     shell.out.print(table)

@@ -17,6 +17,7 @@ def report(
     ],
     output: shell.Page = None,
     title: Annotated[str, typer.Option(help="Heading of the report.")] = "",
+    units: shell.Units = None,
     quiet: shell.Quiet = False,
 ) -> None:
     """Write a self-contained HTML report with figures; several results stand side by side."""
@@ -24,6 +25,8 @@ def report(
     from treadload.reporting import write_report
     from treadload.results import open_results
 
+    if units is not None:
+        shell.choose_units(units)
     path = output or results[0].with_suffix(".html")
     check_suffix(path, HTML, "the report")
     with stages(shell.err, quiet=quiet) as tell:

@@ -51,6 +51,12 @@ Output = Annotated[
 ]
 Page = Annotated[Path | None, typer.Option("--output", "-o", help="File to write, .html.", show_default=False)]
 Report = Annotated[Path | None, typer.Option(help="Page to write, .html.", show_default=False)]
+Units = Annotated[
+    str | None,
+    typer.Option(
+        help="Units of the numbers and figures, si or us; left out, those of `treadload --units`.", show_default=False
+    ),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress on stderr.")]
 Changes = Annotated[
     list[str] | None,
@@ -78,15 +84,20 @@ class _Chosen:
 
 
 def choose_units(system: str) -> None:
-    """Set the units of summaries and reports for the command that follows. Raises InputError for an unknown word."""
+    """Set the units of what the command that follows shows. Raises InputError for an unknown word."""
     from treadload.us_units import check_system
 
     _Chosen.units = "si"
     _Chosen.units = check_system(system)
 
 
+def chosen_units() -> str:
+    """The units of `choose_units`, "si" or "us"."""
+    return _Chosen.units
+
+
 def in_chosen_units() -> AbstractContextManager[None]:
-    """Where rows are shown in the units of `choose_units`."""
+    """Where results are shown in the units of `choose_units`."""
     from treadload.us_units import display_units
 
     return display_units(_Chosen.units)

@@ -47,6 +47,7 @@ def report(
     store: Store,
     output: shell.Page = None,
     title: Annotated[str, typer.Option(help="Heading of the page.")] = "",
+    units: shell.Units = None,
     quiet: shell.Quiet = False,
 ) -> None:
     """Write a self-contained HTML page: what was varied, curves, maps, what failed, the base case."""
@@ -54,6 +55,8 @@ def report(
     from treadload.reporting import report as write_page
     from treadload.sweeps import open_sweep
 
+    if units is not None:
+        shell.choose_units(units)
     path = output or store.with_suffix(".html")
     check_suffix(path, HTML, "the report")
     check_writable(path)

@@ -139,16 +139,19 @@ def scan(
             tell(f"reading {worn.reference}")
             length = worn.reference_length or reading.known_length
             earlier = Tire.from_scan(worn.reference, **reading.read_by(length))
-    shell.out.print(str(tire.quality), markup=False)
+    with shell.in_chosen_units():
+        shell.out.print(str(tire.quality), markup=False)
     if earlier is not None:
-        shell.out.print(str(scan_wear(tire, earlier)), markup=False)
+        with shell.in_chosen_units():
+            shell.out.print(str(scan_wear(tire, earlier)), markup=False)
     with stages(shell.err, quiet=quiet) as tell:
         if figure is not None:
             from treadload.plots import save
             from treadload.plots.scan import scan as drawn
 
             tell("drawing")
-            save(drawn(scan_fields(tire, earlier)), figure)
+            with shell.in_chosen_units():
+                save(drawn(scan_fields(tire, earlier)), figure)
         if output is not None:
             tell("casting rays")
             files = write(scan_map(tire, earlier, spacing=quantity(spacing, "m")), output)
@@ -171,7 +174,8 @@ def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool)
         from treadload.plots import save
         from treadload.plots.contact import height_map
 
-        return save(height_map(result.dataset), path)
+        with shell.in_chosen_units():
+            return save(height_map(result.dataset), path)
 
     _measured(f"reading the lines of {file}", lambda: piece_of_lines(file), draw, output, figure, quiet=quiet)
 
@@ -183,7 +187,8 @@ def _fringes(file: Path, output: Path | None, figure: Path | None, *, quiet: boo
     def draw(result: FringeScan, path: Path) -> Path:
         from treadload.plots import fringe_scan, save
 
-        return save(fringe_scan(result.pixels), path)
+        with shell.in_chosen_units():
+            return save(fringe_scan(result.pixels), path)
 
     _measured(f"evaluating the pictures of {file}", lambda: read_fringes(file), draw, output, figure, quiet=quiet)
 
@@ -311,5 +316,6 @@ def tir(
 
         with stages(shell.err, quiet=quiet) as tell:
             tell("drawing")
-            picture = save(tir_fit(result), figure)
+            with shell.in_chosen_units():
+                picture = save(tir_fit(result), figure)
         shell.written([picture])

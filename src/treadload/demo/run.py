@@ -15,6 +15,7 @@ from treadload.plots import compare_pressure, compare_strain, fatigue_line, save
 from treadload.reporting import write_report
 from treadload.results import save_results
 from treadload.steps import Result, run
+from treadload.us_units import check_system, display_units
 
 CASES = ("free", "tractive")
 # Rows of the table, as contacts and verdicts state them.
@@ -44,13 +45,15 @@ class Demo:
         return comparison(list(self.results.values()))
 
 
-def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
+def run_demo(folder: Path, progress: Progress | None = None, units: str = "si") -> Demo:
     """Free and tractive rolling of the example tire: results, figures and a report in a folder.
 
     folder: made if it is not there; files in it with the same names are replaced.
-    progress: called with a line of text at every stage. Raises InputError if the folder cannot be written.
+    progress: called with a line of text at every stage. units: of figures and report, "si" or "us"; the result files
+    stay in SI units. Raises InputError if the folder cannot be written, or for another word of units.
     """
     began = time.perf_counter()
+    check_system(units)
     tell = progress or (lambda text: None)
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -66,10 +69,11 @@ def run_demo(folder: Path, progress: Progress | None = None) -> Demo:
         results[name] = result
         files += [folder / f"{name}.toml", save_results(result, folder / f"{name}.nc")]
     tell("figures")
-    files += _figures(results, folder)
-    tell("report")
-    trees = {result.case.title: result.to_tree() for result in results.values()}
-    files.append(write_report(trees, folder / "report.html", title="What a truck tire does to a road"))
+    with display_units(units):
+        files += _figures(results, folder)
+        tell("report")
+        trees = {result.case.title: result.to_tree() for result in results.values()}
+        files.append(write_report(trees, folder / "report.html", title="What a truck tire does to a road"))
     return Demo(results, tuple(files), time.perf_counter() - began)
 
 

@@ -96,7 +96,7 @@ def _strains(cases: Sequence[xr.Dataset]) -> Iterator[Drawing]:
 
 
 @comparison(
-    "Response", title="Largest tensile strain, side by side", caption="", when=_strains
+    "Response", title="Largest tensile strain, side by side", caption="", when=_strains, answers=True
 )  # fmt: skip
 @styled
 def compare_strain(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import textwrap
+from collections.abc import Iterator
 
 import numpy as np
 import xarray as xr
@@ -14,7 +15,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
-from treadload.figure_registry import figure
+from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import (
@@ -53,6 +54,16 @@ from treadload.plots.kit.style import (
 from treadload.units import stress_in_words
 
 _ARROWS = 22
+
+
+def _shear_seen(data: xr.Dataset) -> Iterator[Drawing]:
+    """The picture of the shear, or why there is none."""
+    if "state" in data and {"traction_x", "traction_y"} <= set(data):
+        bare = fields_of(data)
+        note = str(bare.attrs.get("negligible_shear", ""))
+        if not note and not _shear(bare).any():
+            note = "no shear: the contact is frictionless, or no force or creepage acts along the road"
+        yield Drawing(negligible=note)
 
 
 @figure(
@@ -136,7 +147,7 @@ def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
     "Contact", "Footprint", title="Shear, stick and slip", wide=True,
     caption="Left: size of the shear in space. Right: the same from above; hatched cells slip, there the shear has "
     "reached friction times pressure. Arrows: shear exerted by the tire on the road.",
-    when=lambda data: "state" in data,
+    when=_shear_seen,
 )  # fmt: skip
 @styled
 def shear(contact: Source) -> Figure:
@@ -190,7 +201,7 @@ def profile(contact: Source) -> Figure:
     data = fields_of(contact, "pressure")
     plan, values = Plan.of(data), plane(data, "pressure") * KPA
     row, column = peak_of(values)
-    figure = new_figure(7.2, 5.8)
+    figure = new_figure(10.9, 5.8)
     upper, lower = figure.subplots(2, 1, sharey=True)
     _section(upper, data, plan.x, (row, slice(None)))
     upper.set_xlabel(X_LABEL)

@@ -111,8 +111,9 @@ def _bars(ax: Axes, names: list[str], data: Source, order: list[int], kinds: lis
     ax.barh(rows, used, height=0.62, color=[_COLOURS[kind] for kind in kinds])
     for row, value in zip(rows, used, strict=True):
         ax.annotate(
-            f"{value:.2g}", (value, row), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8.5
-        )
+            f"{value:.2g}", (value, row), xytext=(4, 0), textcoords="offset points", va="center", fontsize=8.5,
+            path_effects=halo(3), zorder=4,
+        )  # fmt: skip
     ax.axvline(1.0, color=INK, lw=1.2, ls=(0, (4, 2)))
     ax.set_yticks(rows, [plain(f"{k}  {name}") for k, name in enumerate(names, start=1)])
     ax.tick_params(axis="y", length=0)

@@ -14,7 +14,9 @@ from treadload.errors import InputError
 from treadload.figure_registry import Drawing, figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import Limits, Plan, at_depth, colour_bar, draw_cells, fields_of, plane
+from treadload.plots.kit.round_off import round_off
 from treadload.plots.kit.style import CASES, headline, measure, sequential, styled, travel_arrow
+from treadload.variables import SCALES, axis_display_of
 
 _LETTERS = 44
 
@@ -26,13 +28,13 @@ _MOST = 6
 def _maps(data: xr.Dataset) -> Iterator[Drawing]:
     maps = [str(name) for name, field in data.data_vars.items() if {"x", "y"} <= set(field.dims)]
     for name in maps[:_MOST]:
-        yield Drawing({"name": name}, name.replace("_", " "))
+        yield Drawing({"name": name}, _capital(axis_display_of(name, "1").label), negligible=round_off(data, name))
 
 
 @figure("Fields", name="map", title="Map", caption="In plan.", when=_maps)
 @styled
 def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes | None = None) -> Figure:
-    """A variable in plan, at true scale, in its own unit.
+    """A variable in plan, at true scale, in its unit of display.
 
     fields: a result or its dataset. name: of a variable over (y, x), or (depth, y, x) and the like. depth: m; left
     out, the first of what it is over besides. Returns the figure. Raises InputError for a variable that is not a map.
@@ -45,17 +47,19 @@ def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes
     rest = [dim for dim in sheet[name].dims if dim not in ("x", "y")]
     notes = [_place(sheet, str(dim)) for dim in rest]
     sheet = sheet.isel(dict.fromkeys(rest, 0))
-    values, plan = plane(sheet, name), Plan.of(sheet)
+    plan, unit = Plan.of(sheet), str(data[name].attrs.get("units", "")) or "1"
+    values = plane(sheet, name)
+    display = axis_display_of(name, unit, float(np.nanmax(np.abs(values), initial=0.0)))
+    values = values * SCALES.get(display.unit, 1.0)
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     figure, ax = figure_and_axes(ax, 6.4, min(8.0, 1.6 + 4.6 * plan.aspect))
     scale = Limits(low, high if high > low else low + 1.0)
     mesh = draw_cells(ax, plan, values, sequential("strain"), scale)
-    unit = str(data[name].attrs.get("units", "")) or "1"
-    colour_bar(mesh, ax, f"{name.replace('_', ' ')} ({'–' if unit == '1' else unit})", scale)
+    colour_bar(mesh, ax, f"{display.label} ({display.unit or '–'})", scale)
     travel_arrow(ax)
     words = str(data[name].attrs.get("long_name", name))
-    headline(ax, words[:1].upper() + words[1:], ", ".join(notes), _LETTERS)
+    headline(ax, _capital(words), ", ".join(notes), _LETTERS)
     return figure
 
 
@@ -80,8 +84,14 @@ def losses(resistance: Source, *, ax: Axes | None = None) -> Figure:
     ax.spines[["top", "right", "left"]].set_visible(False)
     ax.tick_params(axis="y", length=0)
     ax.set_xlabel("force, or energy per metre (N)")
-    headline(ax, "Rolling resistance", f"{1e3 * float(data['rolling_resistance_coefficient']):.3g} N per kN of load")
+    headline(
+        ax, "Rolling resistance", f"{1e3 * float(data['rolling_resistance_coefficient']):.3g} N/kN, over the load"
+    )
     return figure
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
 
 
 def _place(data: object, dim: str) -> str:

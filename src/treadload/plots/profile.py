@@ -19,7 +19,7 @@ from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.layers import Layers, draw_interfaces, name_layers
 from treadload.plots.kit.places import places_under
-from treadload.plots.kit.plan import DEPTH_LABEL, MICRO, MM, fields_of, peak_of, plane
+from treadload.plots.kit.plan import DEPTH_LABEL, MICRO, MM, contact_mask, fields_of, peak_of, plane
 from treadload.plots.kit.style import CASES, INK, MUTED, halo, headline, legend_below, signed, styled
 from treadload.response.fields import kind_of_points
 
@@ -49,16 +49,28 @@ def _layered(data: xr.Dataset | None) -> bool:
     return data is not None and bool(Layers.of(data).interfaces)
 
 
+def _under_tire(beside: Mapping[str, xr.Dataset]) -> bool:
+    """Whether the section across travel passes below the tire: one through a peak ahead of it has no ribs above."""
+    across, response = beside.get("slice_across"), beside.get("response")
+    if across is None:
+        return False
+    loaded = contact_mask(response) if response is not None and response.sizes.get("x", 1) > 1 else None
+    if response is None or loaded is None:
+        return True
+    x = response["x"].to_numpy()[loaded.any(axis=0)]
+    return bool(x.min() <= float(np.ravel(across["x"])[0]) <= x.max())
+
+
 def _under_one_place(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
     """Of the section along travel, or of the map without one, where layers need no places across the tire."""
     kinds = ("slice_along",) if "slice_along" in beside else ("response",)
-    layered = _layered(beside.get("slice_across"))
+    layered = _layered(beside.get("slice_across")) and _under_tire(beside)
     if kind_of_points(data) in kinds and not layered and data.sizes.get("depth", 1) > 2:
         yield Drawing({"epsilon_6": _epsilon_6(beside)})
 
 
 def _under_places(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
-    if kind_of_points(data) == "slice_across" and _layered(data):
+    if kind_of_points(data) == "slice_across" and _layered(data) and _under_tire(beside):
         # The section has the stress of the surface, but perhaps not that under the load's centre.
         response = beside.get("response")
         load = response if response is not None and 0.0 in response["depth"] else data

@@ -34,6 +34,7 @@ from treadload.plots.kit.plan import (
     peak_of,
     plane,
 )
+from treadload.plots.kit.round_off import round_off
 from treadload.plots.kit.section import Section, draw_section
 from treadload.plots.kit.strokes import draw_strokes, strokes
 from treadload.plots.kit.style import (
@@ -53,6 +54,8 @@ _DIRECTION = {"principal": "principal_direction_1", "in-plane": "in_plane_angle_
 NAMES = {"principal": "three-dimensional", "in-plane": "in the horizontal plane"}
 # Directions of strains below this share of the colour scale are left out.
 _SIGNIFICANT = 0.2
+# Width of a page of a report, inches of a figure.
+_PAGE = 10.9
 
 
 STRAINS: tuple[Strain, ...] = ("principal", "in-plane")
@@ -81,6 +84,7 @@ def _planes(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Draw
                 {"depth": depth, "strain": strain, "contact": beside.get("contact")},
                 f"Largest tensile strain {deep}, {NAMES[strain]}",
                 f"Drawn: {DRAWN[strain]}{holds}. {WHAT[strain]}",
+                round_off(at_depth(data, depth), VARIABLE[strain], over=data),
             )
 
 
@@ -186,7 +190,7 @@ def place_in_words(depth: float) -> str:
 
 
 @figure(
-    "Response", title="Vertical section", order=1, when=_sections
+    "Response", title="Vertical section", order=1, wide=True, when=_sections
 )  # fmt: skip
 @styled
 def depth_slice(
@@ -206,8 +210,9 @@ def depth_slice(
     """
     section = Section.of(response, along, at)
     layered = len(section.layers.interfaces) > 0
-    width = 5.2 + 1.1 * layered
-    figure, ax = figure_and_axes(ax, width + 1.6, min(7.5, max(2.1, 5.2 * section.aspect + 1.1)))
+    # As wide as a page: the section, the names of the layers, the colour bar.
+    wide = _PAGE - 1.9 - 1.1 * layered
+    figure, ax = figure_and_axes(ax, _PAGE, min(8.5, max(2.1, wide * section.aspect + 1.1)))
     scale = limits(section.values)
     mesh = draw_section(ax, section, scale)
     colour_bar(mesh, ax, "microstrain", scale, beyond=name_layers(ax, section.layers, section.bottom))

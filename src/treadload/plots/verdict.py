@@ -174,7 +174,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
 
 
 @figure(
-    "Verdict", title="Cracks to expect",
+    "Verdict", title="Cracks to expect", answers=True,
     caption=lambda data: f"Traces on the surface of cracks across the largest tensile strain, evaluated from "
     f"{_drawn(data)}: longitudinal along travel, transverse across it, oblique between; planes nearer to the "
     "horizontal than 45° as points, where the road splits and no crack runs down. Drawn where a principal stress is "

@@ -17,15 +17,17 @@ from treadload._version import __version__
 from treadload.composing import result_classes
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, write_whole
+from treadload.reporting.answer import answer_of, with_picture
 from treadload.reporting.figures import case_sections, comparison_figures
 from treadload.reporting.first import first_of_response
 from treadload.reporting.inputs import input_lists, input_table
-from treadload.reporting.life import WORKS, life_report
+from treadload.reporting.life import least_work, life_report, work_columns
 from treadload.reporting.reading import ReportCase, kind_of
 from treadload.reporting.road import road_columns, road_tables
 from treadload.reporting.tables import result_table, statistics_table
 from treadload.results import Study, as_tree, bibtex, to_tree
 from treadload.results.tree import QUESTIONS
+from treadload.us_units import sentence_in_display_units
 
 _TITLE = "What a tire does to a road"
 
@@ -104,24 +106,42 @@ def _template() -> jinja2.Template:
     environment = jinja2.Environment(
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
+    # Sentences in the units of display.
+    environment.filters["sentence"] = sentence_in_display_units
     return environment.from_string(text)
 
 
 def _content(cases: list[ReportCase], title: str) -> dict[str, object]:
     side_by_side, compared = comparison_figures(cases)
+    # On one scale: a picture of all cases answers for each of them.
+    drawn = [picture for picture in side_by_side if not picture.missing]
+    of_all = max(drawn, key=lambda picture: picture.rank, default=None)
+    answers, lives, sections = [], [], []
+    for case in cases:
+        data = case.group("life")
+        life = life_report(case.label, data) if data is not None else None
+        of_case, answer = case_sections(case, compared), answer_of(case, life)
+        if answer is not None and (of_all is None or life is not None):
+            answer, life, of_case = with_picture(answer, life, of_case)
+        answers += [answer] if answer is not None else []
+        lives += [life] if life is not None else []
+        sections.append(of_case)
     return {
         "title": title,
+        "answers": answers,
+        "answer_of_all": of_all,
         "cases": [
             {
                 "case": case,
                 "anchor": f"case-{number}",
-                "sections": case_sections(case, compared),
+                "sections": sections[number - 1],
             }
             for number, case in enumerate(cases, start=1)
         ],
         "labels": [case.label for case in cases],
-        "lives": [life_report(case.label, data) for case in cases if (data := case.group("life")) is not None],
-        "work_columns": WORKS,
+        "lives": lives,
+        "work_columns": work_columns(),
+        "least_work": least_work(),
         "passes_of_one_place": any(case.group("damage") is not None for case in cases),
         "firsts": [
             (case.label, page)
@@ -130,7 +150,7 @@ def _content(cases: list[ReportCase], title: str) -> dict[str, object]:
             and (data := case.group("response")) is not None
             and (page := first_of_response(data)) is not None
         ],
-        "comparison": side_by_side,
+        "comparison": [picture for picture in side_by_side if picture is not of_all],
         "road_columns": road_columns(),
         "roads": road_tables(cases),
         "inputs": input_table(cases),

@@ -12,7 +12,7 @@ from treadload.errors import InputError
 from treadload.figure_registry import comparisons
 from treadload.registry import RESULTS
 from treadload.reporting.network import network_tables
-from treadload.reporting.pictures import Picture, draw_all, pictures_of
+from treadload.reporting.pictures import Picture, draw_all, negligible_of, pictures_of
 from treadload.reporting.reading import Extra, ReportCase, groups_in_columns
 from treadload.reporting.studies import study_tables
 from treadload.reporting.tables import NamedTable, tables_of
@@ -27,12 +27,21 @@ _TABLES: dict[str, Callable[[xr.Dataset], tuple[NamedTable, ...]]] = {
 
 @dataclass(frozen=True)
 class Section:
-    """Results of a class under their title. question: of the result in a line. tables: its rows."""
+    """Results of a class under their title.
+
+    question: of the result in a line. tables: its rows. negligible: figures that would show nothing, in sentences.
+    """
 
     heading: str
     pictures: tuple[Picture, ...]
     question: str = ""
     tables: tuple[NamedTable, ...] = ()
+    negligible: tuple[str, ...] = ()
+
+    @property
+    def is_filled(self) -> bool:
+        """True where it has anything to show."""
+        return bool(self.pictures or self.question or self.tables or self.negligible)
 
 
 def case_sections(case: ReportCase, compared: Collection[Callable[..., object]]) -> list[Section]:
@@ -45,11 +54,15 @@ def case_sections(case: ReportCase, compared: Collection[Callable[..., object]])
         if data is not None and kind != "life":
             by_class.setdefault(case.class_of(kind), []).append(data)
     sections = [
-        Section(title_of(result), tuple(pictures_of(result, datasets, beside, compared)))
+        Section(
+            title_of(result),
+            tuple(pictures_of(result, datasets, beside, compared)),
+            negligible=tuple(negligible_of(result, datasets, beside)),
+        )
         for result, datasets in by_class.items()
     ]
     sections += [_other_section(extra, beside, compared) for extra in case.extras]
-    return [section for section in sections if section.pictures or section.question or section.tables]
+    return [section for section in sections if section.is_filled]
 
 
 def comparison_figures(cases: list[ReportCase]) -> tuple[list[Picture], set[Callable[..., object]]]:
@@ -82,7 +95,8 @@ def _other_section(
     pictures = pictures_of(extra.result, [extra.dataset], {**beside, **extra.inside}, compared)
     about, special = extra.dataset.attrs, _TABLES.get(extra.result)
     tables = (*(special(extra.dataset) if special else ()), *tables_of(from_json(about.get("rows"))))
-    return Section(heading, tuple(pictures), str(about.get("heading", "")), tables)
+    negligible = negligible_of(extra.result, [extra.dataset], {**beside, **extra.inside})
+    return Section(heading, tuple(pictures), str(about.get("heading", "")), tables, tuple(negligible))
 
 
 def _beside(case: ReportCase) -> dict[str, xr.Dataset]:

@@ -23,6 +23,7 @@ from treadload.variables import Display, display_of
 
 _RESPONSE = ("quantity", "author", display_of("largest_reading").label, "where", display_of("first_crack").label,
              "calibrated")  # fmt: skip
+_CONDITIONS = "law_conditions"
 _AT = {"read_depth": "depth", "worst_y": "y ="}
 _PLACES = {"top": "top of a layer", "bottom": "bottom of a layer", "interface": "bond between layers"}
 CRACKS, FAILS = "Predicted cracking by criterion", "Predicted failure by criterion"
@@ -33,7 +34,8 @@ class FirstPage:
     """The part of a report about it. heading: with the word "crack" only where one opens. sentence: the first of
     them.
 
-    columns, rows: the table, first to fail first. note: how it is read.
+    columns, rows: the table, first to fail first. note: how it is read. conditions: name of a criterion and what its
+    law was calibrated by, which is too long for a column.
     """
 
     heading: str
@@ -41,6 +43,7 @@ class FirstPage:
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
     note: str
+    conditions: tuple[tuple[str, str], ...] = ()
 
 
 def first_of_life(data: xr.Dataset, rows: Sequence[Row] = ()) -> FirstPage | None:
@@ -49,7 +52,7 @@ def first_of_life(data: xr.Dataset, rows: Sequence[Row] = ()) -> FirstPage | Non
     criteria = [str(name) for name in data["criterion"].to_numpy()]
     keys = [{row.key for row in rows if row.group == name} for name in criteria]
     # Criteria of the surface have rows that those at depth lack: years by other lines.
-    common = set.intersection(*keys)
+    common = set.intersection(*keys) - {_CONDITIONS}
     by_criterion = {name: [row for row in rows if row.group == name and row.key in common] for name in criteria}
     if len({tuple(row.key for row in members) for members in by_criterion.values()}) != 1 or not common:
         return None
@@ -85,7 +88,10 @@ def first_of_life(data: xr.Dataset, rows: Sequence[Row] = ()) -> FirstPage | Non
         "of the middle of the wheel path. A plane nearer to the horizontal than 45° is no crack from the surface "
         "down, and none opens where no principal stress is tensile."
     )
-    return FirstPage(CRACKS if cracks else FAILS, sentence, ("criterion", "author", *columns[1:]), lines, note)
+    texts = {row.group: str(row.value) for row in rows if row.key == _CONDITIONS}
+    conditions = tuple((name, texts[name]) for name in names if name in texts)
+    heads = ("criterion", "author", *columns[1:])
+    return FirstPage(CRACKS if cracks else FAILS, sentence, heads, lines, note, conditions)
 
 
 def _texts(data: xr.Dataset, name: str, count: int) -> list[str]:

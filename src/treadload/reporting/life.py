@@ -11,14 +11,20 @@ import numpy as np
 import xarray as xr
 
 from treadload.damage.indices import NO_WORK
-from treadload.plots.kit.style import measure, signed, thousands
+from treadload.plots.kit.style import measure, power_of_ten, signed, thousands
 from treadload.plots.life import life_change
 from treadload.reporting.first import FirstPage, first_of_life
 from treadload.reporting.pictures import Picture, pictures_of
 from treadload.rows import Row, from_json
+from treadload.us_units import us_unit
 
-_FACTS = ("governing", "governing_years", "rut_depth", "rut_years")
-WORKS = ("axles", "polishing: work of sliding, J/m²", "ravelling: work of tearing, J/m²", "in the season")
+_FACTS = ("rut_depth", "rut_years")
+# Of the governing criterion, in the answer or in the table of all criteria.
+_BELOW = (
+    "life_years", "life_passes", "law_conditions", "largest_reading", "read_depth", "worst_y", "damage_by",
+    "first_crack",
+)  # fmt: skip
+_WORK = "J/m²"
 
 
 @dataclass(frozen=True)
@@ -27,7 +33,7 @@ class LifeReport:
 
     label: of the case. facts: (term, value). laws: name of a criterion, law, source, caveat, what the end of life is.
     groups: sentences on first cracks and on groups of axles. solved: what was solved for it. first: the criteria,
-    where it would crack first, by which criterion; None for files without it. works: rows of `WORKS`.
+    where it would crack first, by which criterion; None for files without it. works: rows of `work_columns`.
     """
 
     label: str
@@ -64,7 +70,7 @@ def _first_cracks(rows: Sequence[Row]) -> list[str]:
 
 
 def _works(data: xr.Dataset) -> tuple[tuple[str, ...], ...]:
-    """Cells of `WORKS` for every class of axles."""
+    """Cells of `work_columns` for every class of axles."""
     if not {"largest_polishing_work", "largest_tearing_work"} <= set(data):
         return ()
     rows = []
@@ -81,10 +87,25 @@ def _works(data: xr.Dataset) -> tuple[tuple[str, ...], ...]:
 
 
 def _work(value: float) -> str:
-    """A work, J/m²; 0 where it is what a solution leaves of a wheel that rolls freely."""
+    """A work, J/m², as shown; 0 where it is what a solution leaves of a wheel that rolls freely."""
     if value < NO_WORK:
         return "0"
-    return thousands(value) if value >= 1e3 else f"{value:.3g}"
+    us = us_unit(_WORK)
+    number = value if us is None else us.number(value)
+    return thousands(number) if number >= 1e3 else f"{number:.3g}"
+
+
+def work_columns() -> tuple[str, ...]:
+    """Heads of the table of what a passage does to the surface."""
+    us = us_unit(_WORK)
+    unit = _WORK if us is None else us.symbol
+    return "axles", f"polishing: work of sliding, {unit}", f"ravelling: work of tearing, {unit}", "in the season"
+
+
+def least_work() -> str:
+    """What stands as 0 in that table, with its unit."""
+    us = us_unit(_WORK)
+    return f"10⁻⁸ {_WORK}" if us is None else f"{power_of_ten(us.number(NO_WORK))} {us.symbol}"
 
 
 def exhausted(data: xr.Dataset) -> bool:
@@ -102,10 +123,10 @@ def _facts(data: xr.Dataset, rows: Sequence[Row]) -> tuple[tuple[str, str], ...]
     """What governs and its rows; what it depends on most. rows: of the life."""
     alone = {row.key: row for row in rows if not row.group}
     first = str(_governing(data)["criterion"].item())
-    governing = [row for row in rows if row.group == first and row.key != "life_passes"]
+    governing = [row for row in rows if row.group == first and row.key not in _BELOW]
     facts = [(row.label, row.text) for key, row in alone.items() if key in _FACTS]
     facts += [(f"{first}: {row.label}", row.text) for row in governing]
-    facts += [(f"{first}: limit", row.note) for row in governing if row.key == "life_years"]
+    facts += [(f"{first}: limit", row.note) for row in rows if row.group == first and row.key == "life_years"]
     if "elasticity" in data:
         for name, value in zip(data["input"].to_numpy()[:3], data["elasticity"].to_numpy()[:3], strict=True):
             step = "" if str(name).startswith("temperature") else " (+5 %)"

@@ -9,7 +9,7 @@ import os
 import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -22,6 +22,7 @@ from PIL import Image, features
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, classes_of, figures_of
 from treadload.plots import raster
+from treadload.us_units import sentence_in_display_units
 
 _DPI = 125.0
 # Pixels of the page for an inch of a figure.
@@ -33,7 +34,8 @@ class Picture:
     """A figure in the page. width: of the page, pixels. wide: takes the full width.
 
     encoded: its data URI, once it is encoded; None where there is no figure.
-    missing: why there is none, a sentence that stands in its place.
+    missing: why there is none, a sentence that stands in its place. rank: how well it answers what the result was
+    asked, 0 for a figure among others, more for the main one of a result, most for that of an assessment.
     """
 
     title: str
@@ -42,6 +44,7 @@ class Picture:
     width: int
     wide: bool
     missing: str = ""
+    rank: int = 0
 
     @property
     def source(self) -> str:
@@ -89,13 +92,29 @@ def pictures_of(
     pictures: list[Picture] = []
     for figure in figures_of(*classes_of(result)):
         for data in datasets if figure.draw not in left_out else ():
-            pictures += _drawn(figure, partial(figure.drawings, data, beside), data)
+            drawn = _drawn(figure, partial(figure.drawings, data, beside), data)
+            rank = 2 * figure.answers + figure.main
+            pictures += [replace(each, rank=rank if k == 0 else 0) for k, each in enumerate(drawn)]
     return pictures
+
+
+def negligible_of(result: str, datasets: Sequence[xr.Dataset], beside: Mapping[str, xr.Dataset]) -> list[str]:
+    """Figures that would show nothing, each as a sentence. result, datasets, beside: as of `pictures_of`."""
+    left_out = []
+    for figure in figures_of(*classes_of(result)):
+        for data in datasets:
+            try:
+                left_out += figure.negligible(data, beside)
+            # It has a sentence among the pictures.
+            except Exception:
+                continue
+    return [f"{drawing.title}: {sentence_in_display_units(drawing.negligible)}." for drawing in left_out]
 
 
 def draw_all(figure: RegisteredFigure, datasets: list[xr.Dataset], labels: list[str]) -> list[Picture]:
     """The pictures of a registered comparison of several cases."""
-    return _drawn(figure, partial(figure.drawings_of_several, datasets), datasets, labels)
+    drawn = _drawn(figure, partial(figure.drawings_of_several, datasets), datasets, labels)
+    return [replace(each, rank=2 * figure.answers if k == 0 else 0) for k, each in enumerate(drawn)]
 
 
 def _drawn(figure: RegisteredFigure, drawings: Callable[[], list[Drawing]], *arguments: object) -> list[Picture]:
@@ -108,7 +127,12 @@ def _drawn(figure: RegisteredFigure, drawings: Callable[[], list[Drawing]], *arg
     return [
         shown
         for each in wanted
-        for shown in picture(each.title, each.caption, partial(draw, *arguments, **each.options), figure.wide)
+        for shown in picture(
+            sentence_in_display_units(each.title),
+            sentence_in_display_units(each.caption),
+            partial(draw, *arguments, **each.options),
+            figure.wide,
+        )
     ]
 
 

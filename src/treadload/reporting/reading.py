@@ -28,7 +28,7 @@ from treadload.variables import in_order
 
 STRAINS = ("largest_principal_strain", "largest_in_plane_strain")
 # Rows of a verdict on its card.
-_FACTS = ("evaluation", "contacts_evaluated", "worst_strain", "worst_crack_orientation", "worst_passes")
+_FACTS = ("evaluation", "contacts_evaluated")
 # Names that other writers gave to the same group.
 _ALSO = {"slice": "slice_along"}
 
@@ -239,7 +239,7 @@ class ReportCase:
 
     @property
     def facts(self) -> list[tuple[str, str]]:
-        """What the assessment evaluates and finds, and the largest strains at points, for a card."""
+        """What the assessment evaluates, and the largest strains at points, for a card beside the answer."""
         rows = [row for row in self.rows("damage") if row.key in _FACTS]
         points = [
             replace(row, label=f"{row.label}, at a point") for key, row in self.strains.items() if key in STRAINS

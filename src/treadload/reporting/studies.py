@@ -28,7 +28,7 @@ def study_tables(data: xr.Dataset) -> tuple[NamedTable, ...]:
         NamedTable("Cases", ("cases", "solved", "failed", "not solved yet", "time of solving"), (_counts(view),)),
         NamedTable(
             "Range of the results", ("result", "smallest", "in the case", "largest", "in the case"),
-            tuple(_range(view, name) for name in main_readings(view, _ROWS)),
+            tuple(extremes_of(view, name) for name in main_readings(view, _ROWS)),
         ),
         NamedTable("What failed", ("cases", "the first", "reason"), tuple(_failures(view))),
     ]  # fmt: skip
@@ -63,7 +63,8 @@ def _counts(view: View) -> tuple[str, ...]:
     return (*(thousands(count) for count in counts), took)
 
 
-def _range(view: View, name: str) -> tuple[str, ...]:
+def extremes_of(view: View, name: str) -> tuple[str, ...]:
+    """A result of a study: its name, the smallest value with its case, the largest with its case, as texts."""
     field = view.reading(name)
     how, values = shown(field, name), numbers(field.transpose(*view.dims, ...))
     parts = [capital(how.words)]

@@ -8,6 +8,7 @@ import textwrap
 import threading
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
@@ -21,6 +22,7 @@ from matplotlib.transforms import offset_copy
 from matplotlib.typing import ColorType
 
 from treadload.errors import InputError, nearest
+from treadload.plots.kit.us_figure import show_in_display_units
 from treadload.registry import COLOUR_MAPS
 
 INK = "#1b1f24"
@@ -79,12 +81,15 @@ _RC: Any = {
 _TITLE = 52
 # Distance of the x label's line below the axes, points.
 _LABEL_LINE = 26
+# Width of axes that have room for "x, direction of travel (mm)" and the arrow on that line, points.
+_BESIDE_ARROW = 240
 
 P = ParamSpec("P")
 R = TypeVar("R")
 
 # rcParams belong to the process: two threads of a server must not draw between each other's settings.
 _LOCK = threading.RLock()
+_inside: ContextVar[bool] = ContextVar("treadload_figure_drawn", default=False)
 
 
 @contextmanager
@@ -95,12 +100,20 @@ def house_style() -> Iterator[None]:
 
 
 def styled(draw: Callable[P, R]) -> Callable[P, R]:
-    """A function that draws in the package's style."""
+    """A function that draws in the package's style, and in the units of display, whatever others it draws by."""
 
     @functools.wraps(draw)
     def inside(*args: P.args, **kwargs: P.kwargs) -> R:
-        with house_style():
-            return draw(*args, **kwargs)
+        outermost = not _inside.get()
+        token = _inside.set(True)
+        try:
+            with house_style():
+                drawn = draw(*args, **kwargs)
+                if outermost and isinstance(drawn, Figure):
+                    show_in_display_units(drawn)
+                return drawn
+        finally:
+            _inside.reset(token)
 
     return inside
 
@@ -180,7 +193,11 @@ def ink_on(colour: ColorType) -> str:
 
 
 def travel_arrow(ax: Axes) -> None:
-    """An arrow under the right end of a map that points where the wheel goes."""
+    """An arrow under the right end of a map that points where the wheel goes, right of the label of its x."""
+    ax.xaxis.label.set(x=0.0, horizontalalignment="left")
+    if _width_in_points(ax) < _BESIDE_ARROW:
+        # The arrow shows the direction.
+        ax.set_xlabel(ax.get_xlabel().replace("x, direction of travel", "x"))
     start, end = (
         offset_copy(ax.transAxes, figure_of(ax), x=shift, y=-_LABEL_LINE, units="points") for shift in (-34, 0)
     )
@@ -193,6 +210,16 @@ def travel_arrow(ax: Axes) -> None:
         "travel", (1, 0), xytext=(-38, -_LABEL_LINE), xycoords="axes fraction", textcoords="offset points",
         fontsize=8.5, ha="right", va="center",
     )  # fmt: skip
+
+
+def _width_in_points(ax: Axes) -> float:
+    """Width of axes as far as it is known before the layout."""
+    box = ax.get_window_extent()
+    width = float(box.width)
+    if ax.get_aspect() == 1:
+        (left, right), (low, high) = ax.get_xlim(), ax.get_ylim()
+        width = min(width, float(box.height) * abs((right - left) / (high - low)))
+    return width * 72.0 / figure_of(ax).dpi
 
 
 def legend_below(ax: Axes, handles: Sequence[Artist], columns: int | None = None) -> None:
