@@ -22,7 +22,7 @@ from treadload.us_units import sentence_in_display_units
 _NOT = "Does not govern"
 _RUT = "rut"
 # Letters of a fact from which on it takes the width of the card.
-_LONG = 60
+_LONG = 40
 
 
 @dataclass(frozen=True)
