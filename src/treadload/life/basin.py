@@ -76,7 +76,7 @@ def _onto(data: xr.Dataset, across: Array, along: Array, y: Array, x: Array) -> 
     """Fields (depth, y, x) on other y and x, m."""
     # Variables, not arrays with coordinates, which cost more than these products.
     fields = {
-        name: (field.dims, across @ (field.values.astype(np.float32) @ along.T), field.attrs)
+        name: (field.dims, across @ (field.values.astype(np.float32, copy=False) @ along.T), field.attrs)
         for name, field in data.variables.items()
         if name not in data.coords
     }
