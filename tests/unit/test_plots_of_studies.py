@@ -7,7 +7,7 @@ from matplotlib.colors import to_rgb
 
 import treadload as tl
 from studies import CASE, product_study, study_of, wheel
-from treadload.plots.kit.shown import shown
+from treadload.plots.kit.shown import Shown, shown
 from treadload.plots.sweeps.reading import View
 from treadload.sweeps import sampled
 from treadload.sweeps.design import listed, product
@@ -223,3 +223,12 @@ def test_quantities_are_shown_in_the_units_of_people():
     assert told("slip_fraction", 0.25, "1") == "slip share of the contact: 25 %"
     assert told("friction", 0.7, "1") == "friction: 0.7"
     assert shown(xr.DataArray([1e6], attrs={"units": "1"}), "worst_passes").logarithmic
+
+
+def test_a_number_with_a_unit_has_no_power_of_ten():
+    area = Shown("net contact area", "mm²", 1e6)
+    assert area.number(0.028108) == "28110 mm²"
+    assert area.number(0.0000281) == "28.1 mm²"
+    assert Shown("force", "N", 1.0).number(-12345.6) == "\u221212350 N"
+    # Counts keep theirs.
+    assert Shown("load repetitions", "–", 1.0).number(1.5e6) == "1.5e+06"

@@ -12,6 +12,8 @@ from treadload.variables import SCALES, axis_display_of
 
 # What is less than this in the unit of a figure is nothing.
 _NOTHING = 1e-6
+# Numbers with a unit have a power of ten from here on.
+_LONG = 1e7
 # Quantities of which a tenth and ten times are alike far from the middle.
 _LOGARITHMIC = ("passes", "years")
 
@@ -39,7 +41,10 @@ class Shown:
         if unit and abs(scaled) < _NOTHING:
             # Round-off of a place on an axis of symmetry, and the like.
             scaled = 0.0
-        return f"{scaled:.4g}{unit}".replace("-", "\u2212")
+        # 28110 mm², not 2.811e+04 mm².
+        is_whole = 1e4 <= abs(scaled) < _LONG
+        text = f"{float(f'{scaled:.4g}'):.0f}" if is_whole and unit else f"{scaled:.4g}"
+        return f"{text}{unit}".replace("-", "\u2212")
 
 
 def shown(field: xr.DataArray, name: str = "") -> Shown:
