@@ -27,16 +27,12 @@ class Stopped(Exception):
 
 @dataclass
 class StoredRun:
-    """What is known of one run. parts: by their names in a file. load: of the case, to be read elsewhere.
-
-    opened: it was read from a file, so that no solve of this process brings the block of road below its maps.
-    """
+    """What is known of one run. parts: by their names in a file. load: of the case, to be read elsewhere."""
 
     case: Case | None
     parts: dict[str, BaseResult] = field(default_factory=dict)
     load: Loaded | None = None
     block: Any = None
-    opened: bool = False
 
 
 class StoredRuns:
@@ -78,7 +74,7 @@ class StoredRuns:
         if run not in self._runs:
             opened = open_results(self.folder / f"{run}.nc")
             case = opened.case
-            self.keep(run, StoredRun(case if isinstance(case, Case) else None, dict(opened.parts), opened=True))
+            self.keep(run, StoredRun(case if isinstance(case, Case) else None, dict(opened.parts)))
         return self._runs[run]
 
     def loaded(self, stored: StoredRun) -> Loaded:
