@@ -12,11 +12,12 @@ import xarray as xr
 
 from treadload.case import Case
 from treadload.errors import InputError
-from treadload.plots.kit.style import power_of_ten
 from treadload.reporting import report, write_report
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import result_table
+from treadload.reporting.typesetting import with_powers
 from treadload.steps import Result, run
+from treadload.units import repetitions_in_words
 from treadload.us_units import display_units
 
 CASE = """
@@ -112,7 +113,7 @@ def test_report_holds_the_numbers_of_every_case(page, results):
             "in-plane strain, mean over 10 mm",
             f"{float(verdict.worst_depth) * 1e3:g} mm deep",
             "the mean of two contacts whose grids are offset by half a cell",
-            power_of_ten(float(verdict.worst_passes)),
+            with_powers(repetitions_in_words(float(verdict.worst_passes))),
             result.verdict.orientation,
         ):
             assert wanted in page.words
@@ -227,7 +228,10 @@ def test_verdict_without_sentence_is_composed(results, tmp_path):
         del damage.attrs[name]
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))
-    assert f"the fatigue law allows {power_of_ten(float(damage.worst_passes))} load repetitions" in page.words
+    assert (
+        f"the fatigue law allows {with_powers(repetitions_in_words(float(damage.worst_passes)))} load repetitions"
+        in page.words
+    )
     damage["worst_strain"], damage["worst_passes"] = -1e-6, np.inf
     tree = xr.DataTree.from_dict({"/damage": damage})
     page = _Page(write_report({"case": tree}, tmp_path / "r.html").read_text(encoding="utf-8"))

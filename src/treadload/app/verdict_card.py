@@ -13,6 +13,7 @@ from treadload.damage import Life, Verdict
 from treadload.damage.quantity import Reading
 from treadload.damage.unevaluated import bright_spot
 from treadload.plots.kit.style import signed
+from treadload.reporting.typesetting import with_powers
 from treadload.response import Response
 from treadload.steps.allowed import Allowed, PassesAllowed
 from treadload.units import repetitions_in_words, years_in_words
@@ -95,12 +96,16 @@ def _of_allowed(allowed: PassesAllowed, parts: Parts) -> Card:
         ("Place", f"{place}; x = {signed(1e3 * first.x, 0)} mm, y = {signed(1e3 * first.y, 0)} mm"),
         ("Why", f"{first.reads}: {first.reads.in_words(first.reading)}{beyond}"),
     ]
-    headline = f"{repetitions_in_words(first.passes)} load repetitions"
+    headline = _counted(first.passes)
     return Card(state="open", headline=headline, facts=facts, not_governing=lines[:_MOST_LINES], map=bright)
 
 
 def _repetitions(line: Allowed) -> str:
-    return f"{repetitions_in_words(line.passes)} load repetitions" if line.reading > 0 else "nothing harmful there"
+    return _counted(line.passes) if line.reading > 0 else "nothing harmful there"
+
+
+def _counted(passes: float) -> str:
+    return f"{with_powers(repetitions_in_words(passes))} load repetitions"
 
 
 def _of_verdict(verdict: Verdict, parts: Parts) -> Card:
@@ -124,7 +129,7 @@ def _of_verdict(verdict: Verdict, parts: Parts) -> Card:
         ("Why", f"{'in-plane' if verdict.strain == 'in-plane' else 'largest principal'} tensile strain, "
                 f"{data.attrs.get('reading', 'local')}: {strain * 1e6:.3g} microstrain"),
     ]  # fmt: skip
-    headline = f"{repetitions_in_words(float(data['worst_passes']))} load repetitions"
+    headline = _counted(float(data["worst_passes"]))
     return Card(state="open", headline=headline, facts=facts, not_governing=lines, map=_bright(parts))
 
 

@@ -91,9 +91,14 @@ def _planes(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Draw
 def _sections(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
     words = {"slice_along": "along travel", "slice_across": "across travel"}.get(kind_of_points(data))
     if words is not None:
-        deep = assessed_depth(assessed_plane(beside.get("response"), beside.get("damage")))
+        damage = beside.get("damage")
+        deep = assessed_depth(assessed_plane(beside.get("response"), damage))
+        crossed = "y" if words == "along travel" else "x"
+        at = data[crossed].to_numpy().ravel()
+        is_worst = damage is not None and np.allclose(at, float(damage[f"worst_{crossed}"]), atol=1e-6)
+        through = f"the worst point {deep}" if is_worst else "the largest strain of the shallowest map"
         caption = (
-            f"Drawn: the three-dimensional strain through the worst point {deep}; black bars: the tire touches. "
+            f"Drawn: the three-dimensional strain through {through}; black bars: the tire touches. "
             "Strokes show the part of the direction that lies in the section."
         )
         yield Drawing(title=f"Vertical section {words}", caption=caption)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import re
 
-from treadload.plots.kit.style import power_of_ten, thousands
+from treadload.plots.kit.style import thousands
 from treadload.rows import Row
 
 # A number such as 1.2e+05 in a sentence.
-_POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
+_POWER = re.compile(r"(\d+(?:\.\d+)?)e([+-]?\d+)")
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _MINUS = re.compile(r"(?<![\w-])-(?=[\d.])")
 _WHOLE = re.compile(r"\d{5,}")
 
@@ -16,10 +17,19 @@ _WHOLE = re.compile(r"\d{5,}")
 def typeset(row: Row, *, bare: bool = False) -> str:
     """A row's value in the characters of a page: powers of ten, thousands, a true minus. bare: without its unit."""
     text = row.number if bare else row.text
-    text = _POWER.sub(lambda match: power_of_ten(float(match[0])), text)
+    text = with_powers(text)
     if isinstance(row.value, str):
         return text
     return thousands(float(text)) if _WHOLE.fullmatch(text) else with_minus(text)
+
+
+def with_powers(text: str) -> str:
+    """A text of numbers with powers of ten: 1.2×10⁵ in place of 1.2e+05.
+
+    >>> with_powers("6.04e+06 load repetitions")
+    '6.04×10⁶ load repetitions'
+    """
+    return _POWER.sub(lambda match: f"{match[1]}×10{str(int(match[2])).translate(_RAISED)}", text)
 
 
 def with_minus(text: str) -> str:

@@ -26,7 +26,7 @@ _BELOW_FACE = 1e-6
 
 
 class SlicesStep(Step, name="slices"):
-    """Vertical slices along and across travel, through the worst point of the map that the assessment reads."""
+    """Vertical slices along and across travel, through the worst point of the assessment if it lies in the map."""
 
     after: ClassVar = ("contact", "response")
     also: ClassVar = ("damage",)
@@ -64,10 +64,15 @@ class SlicesStep(Step, name="slices"):
 
 
 def _worst_point(response: Response, verdict: Verdict | None) -> tuple[float, float]:
-    """X and y, m, of the assessment's worst point; without one of the largest extension of the first map."""
-    if verdict is not None and float(verdict.dataset["worst_strain"]) > 0:
-        return float(verdict.dataset["worst_x"]), float(verdict.dataset["worst_y"])
+    """X and y, m, of the assessment's worst point if it lies in the map, else of the largest strain of the first map.
+
+    A worst point in the basin far ahead of a wheel has a section without the wheel, which explains nothing.
+    """
     strain = response.dataset.principal_strain_1.isel(depth=0)
+    if verdict is not None and float(verdict.dataset["worst_strain"]) > 0:
+        worst = {name: float(verdict.dataset[f"worst_{name}"]) for name in ("x", "y")}
+        if all(float(strain[name][0]) <= worst[name] <= float(strain[name][-1]) for name in worst):
+            return worst["x"], worst["y"]
     row, column = index_of_largest(strain.values)
     return float(strain.x[column]), float(strain.y[row])
 
