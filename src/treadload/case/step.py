@@ -38,6 +38,9 @@ class Step(Table):
     has no key of its own. is_quiet: True where the result is left out of summaries. swept: True where a study keeps
     its numbers for every case without being asked for them. shapes_contact: True where the contact of a wheel depends
     on the table. heading: of its keys in a report; left out, its name.
+
+    >>> tl.steps.GrowthStep.name, tl.steps.GrowthStep.after  # solved after the service life
+    ('growth', ('life',))
     """
 
     name: ClassVar[str] = ""

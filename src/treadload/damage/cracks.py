@@ -110,6 +110,13 @@ def envelope(
     never an extension, or no principal stress is tensile when it is largest. The instant is one of the response's x:
     the strain errs by the square of their distance. Its attribute `warnings` states where the worst instant is the
     first or the last x. Raises InputError for a response of a single x.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> x = [-0.4, -0.2, 0.0, 0.2, 0.4]
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=x, y=[0.0, 0.2, 0.4])
+    >>> passage = tl.damage.envelope(response)
+    >>> [f"{strain * 1e6:.0f} microstrain" for strain in passage.extension_strain.values.ravel()]
+    ['269 microstrain', '194 microstrain', '104 microstrain']
     """
     check_tolerance(oblique_tolerance)
     data = gridded(response)
@@ -169,6 +176,13 @@ def crack_rose(
     (-π/2, π/2], which adds up to 1 less the horizontal cracks: they have no trace to speak of. All shares are 0
     where there is no extension; the attribute `weight_total` is the area in m² (the width in m), or the damage on it.
     Raises InputError.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> x = [-0.4, -0.2, 0.0, 0.2, 0.4]
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=x, y=[-0.1, 0.0, 0.1])
+    >>> rose = tl.damage.crack_rose(tl.damage.envelope(response).isel(depth=0))
+    >>> f"{float(rose.orientation_share.sel(orientation='transverse')):.0%} of the width cracks across travel"
+    '100% of the width cracks across travel'
     """
     check_tolerance(oblique_tolerance)
     cracks = dataset_of(cracks)

@@ -75,6 +75,12 @@ def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict
 
     deepest: m; depths below it do not count: `NEAR_SURFACE` for the shear strain at the edge of a tire.
     Raises InputError where the quantity or all of its depths are missing.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(1e9, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.1, 8e5), road, depths=[0.02, 0.05], x=[0.0, 0.1], y=[0.0])
+    >>> place = tl.damage.peak(tl.damage.compute_quantities(response), "vertical_shear_strain")
+    >>> f"{place['value'] * 1e6:.0f} microstrain below the edge of the load, {place['depth'] * 1e3:.0f} mm deep"
+    '658 microstrain below the edge of the load, 20 mm deep'
     """
     if name not in fields:
         raise InputError(f"the fields hold {', '.join(map(str, fields.data_vars))}, got {name!r}")
@@ -97,6 +103,12 @@ def tension_behind(response: Source) -> xr.Dataset:
     An elastic road shows some too; what viscoelasticity adds is the difference to the road's elastic limits.
     Raises InputError without the surface, a load on it, or points behind it.
     Source: the mechanism is Tamagny's, as cited by the paper of this method; the definition is this package's.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(1e9, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.1, 8e5), road, depths=[0.0], x=[-0.15, 0.0, 0.15], y=[0.0])
+    >>> behind = tl.damage.tension_behind(response)
+    >>> f"{behind.tension_behind.item() / 1e3:.0f} kPa at x = {behind.tension_behind_x.item():.2f} m"
+    '53 kPa at x = -0.15 m'
     """
     data = gridded(response)
     if not (data["depth"] == 0).any():

@@ -94,6 +94,12 @@ def thermal_stress(
     Method: each term of the series is carried on exactly for strain that is linear in reduced time over a step
     (Taylor, Pister & Goudreau, 1970, Int. J. Numer. Meth. Eng. 2): exact where aT is constant, else O(step²).
     Raises InputError.
+
+    >>> mix, shift = tl.materials.Prony(20e9, ((0.6, 10.0), (0.39, 1e4)), 0.35), tl.materials.WLF(19.0, 150.0, 15.0)
+    >>> time, cooling = [0.0, 4 * 3600.0, 8 * 3600.0, 12 * 3600.0], [5.0, 0.0, -5.0, -10.0]
+    >>> stress = tl.damage.thermal_stress(mix, shift, time, cooling, expansion=2.5e-5)
+    >>> [f"{tension / 1e6:.1f} MPa" for tension in stress]
+    ['0.0 MPa', '1.6 MPa', '3.5 MPa', '6.4 MPa']
     """
     if not isinstance(material, Prony):
         raise InputError(
@@ -129,6 +135,12 @@ def add_thermal_stress(response: Source, stress: ArrayLike) -> Response | xr.Dat
     stay those of the traffic, for a restrained road that cools does not strain. Linear viscoelasticity lets the two
     add up. Returns a Response of a Response, else a dataset. An assessment on it reads tension of both together, also
     where it solves the road again. Raises InputError.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(15e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0], y=[0.0])
+    >>> cold = tl.damage.add_thermal_stress(response, 0.5e6)
+    >>> [f"{result.dataset.stress_xx.item() / 1e6:.1f} MPa" for result in (response, cold)]
+    ['2.6 MPa', '3.1 MPa']
     """
     data = gridded(response)
     stresses = np.asarray(stress, dtype=float)

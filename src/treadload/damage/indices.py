@@ -80,6 +80,13 @@ def distortion_work(response: Source, road: Pavement) -> xr.DataArray:
     layer, by trapezoids: it should have several in each, from top to bottom. response: on a grid, from above at
     interfaces. Layers with fewer than two depths are NaN. Not calibrated: elastic energy is given back; a rut grows
     with a small part of it. Raises InputError.
+
+    >>> asphalt, soil = tl.Elastic(2e9, 0.35), tl.Elastic(60e6, 0.4)
+    >>> road = tl.Pavement([tl.Layer(asphalt, 0.06), tl.Layer(asphalt, 0.12), tl.Layer(soil)])
+    >>> depths = [0.0, 0.02, 0.04, 0.06, 0.09, 0.12, 0.15, 0.18]
+    >>> response = tl.solve_response(tl.UniformDisc(0.125, 8e5), road, depths=depths, x=[-0.1, 0.0, 0.1], y=[0.0])
+    >>> [f"{work:.0f} J/m²" for work in tl.damage.distortion_work(response, road).values.ravel()[:2]]
+    ['3 J/m²', '12 J/m²']
     """
     data = gridded(response)
     depths, energy = data["depth"].to_numpy(), DistortionEnergy().values(data).max(axis=-1)
@@ -109,6 +116,13 @@ def asphalt_rut(
     thickness h of all asphalt in inches, at least 0. thickness: h, m; left out, that of the bituminous layers.
     The attribute `warnings` has its caveat. Raises InputError.
     Source: NCHRP 1-37A (2004), part 3, chapter 3; k_z as coded in ProductOneME (commit c89fe2b).
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(2e9, 0.35), 0.2), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> depths = [0.0, 0.03, 0.06, 0.09, 0.12, 0.16, 0.2]
+    >>> response = tl.solve_response(tl.UniformDisc(0.125, 662e3), road, depths=depths, x=[0.0], y=[0.0])
+    >>> rut = tl.damage.asphalt_rut(response, road, temperature=30.0, passes=1e6, thickness=0.2)
+    >>> f"{rut.item() * 1e3:.0f} mm"
+    '9 mm'
     """
     positive("passes", passes, remedy="a rut needs at least one")
     law = PassesPowerLaw.asphalt(temperature)

@@ -34,6 +34,13 @@ def delaminate(road: Pavement, interface: int, bond: BondLaw = FRICTIONLESS) -> 
 
     interface: counted from the surface, 0 below the top layer, negative from the lowest. bond: what is left,
     FRICTIONLESS, HALF_BONDED or Bond(stiffness=...). Raises InputError for an interface that is not there.
+
+    >>> asphalt, soil = tl.Elastic(5e9, 0.35), tl.Elastic(60e6, 0.4)
+    >>> road = tl.Pavement([tl.Layer(asphalt, 0.06), tl.Layer(asphalt, 0.1), tl.Layer(soil)])
+    >>> roads, tire = (road, tl.damage.delaminate(road, 0)), tl.UniformDisc(0.125, 662e3)
+    >>> strains = [tl.solve_response(tire, r, depths=[0.06], points=[[0, 0]]).dataset.strain_xx.item() for r in roads]
+    >>> [f"{strain * 1e6:.0f} microstrain" for strain in strains]
+    ['-17 microstrain', '226 microstrain']
     """
     number = interface_number(road, interface)
     layers = [replace(layer, bond=bond) if k == number else layer for k, layer in enumerate(road.layers)]
@@ -50,6 +57,12 @@ def interface_fields(above: Source, below: Source | None = None) -> xr.Dataset:
     minus that above it, m. The shear is σ_xz and σ_yz: at a Bond it is stiffness times the jump. Coordinates depth,
     m, and between, the names of both layers.
     Raises InputError for a response without interfaces, or without their depths.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.125, 8e5), road, depths=[0.06], x=[0.0, 0.125], y=[0.0])
+    >>> fields = tl.damage.interface_fields(response)
+    >>> [f"{shear / 1e3:.0f} kPa" for shear in fields.interface_shear.values.ravel()]
+    ['0 kPa', '58 kPa']
     """
     data = gridded(above)
     names = _layer_names(data)
@@ -107,6 +120,13 @@ class BondVerdict(BaseResult, group="bonds"):
     no strength is given; largest_utilisation, parting_x, parting_y, parting_passes (interface), parting_shear and
     parting_pressure, Pa, there.
     strengths: one for each interface, None where not assessed. law: of fatigue, or None. warnings: for the user.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> at = [-0.25, -0.125, 0.0, 0.125, 0.25]
+    >>> fields = tl.life.solve_interfaces(tl.UniformDisc(0.125, 8e5), road, x=at, y=at)
+    >>> result = tl.damage.assess_bonds(fields, tl.damage.InterfaceStrength(cohesion=0.4e6))
+    >>> f"{float(result.dataset.largest_utilisation[0]):.2f} of the strength, {len(result.warnings)} warnings"
+    '0.14 of the strength, 0 warnings'
     """
 
     title: ClassVar[str] = "Interface bonds"
@@ -191,6 +211,13 @@ def assess_bonds(
     far as the basin reaches, until it lies inside; a warning states the place beyond, or that it still lies at the
     end. Fields alone cannot be solved further: a warning states the edge.
     Returns a BondVerdict. Raises InputError for a wrong number of strengths or temperatures, or one that is missing.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> at = [-0.25, -0.125, 0.0, 0.125, 0.25]
+    >>> fields = tl.life.solve_interfaces(tl.UniformDisc(0.125, 8e5), road, x=at, y=at)
+    >>> bonds = [tl.damage.InterfaceStrength(cohesion) for cohesion in (0.8e6, 0.05e6)]
+    >>> [f"{float(tl.damage.assess_bonds(fields, bond).dataset.largest_utilisation[0]):.2f}" for bond in bonds]
+    ['0.07', '1.15']
     """
     above, source = fields, dataset_of(fields)
     fields = source if "interface_shear" in source else interface_fields(source)

@@ -54,6 +54,13 @@ class Life(BaseResult, group="life"):
     traffic, climate: what was asked. readings, laws: behind the sum, see `miner`, a law for each criterion and
     season, of the first class of axles. by_class: (criterion, axle_class, season), where classes meet other moduli.
     stats: solves and errors behind the readings. warnings: sentences for the user.
+
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=820e3)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> criteria = [tl.damage.Criterion(name, tl.FatigueLine(120e-6, -0.2), 0, name) for name in ("top", "bottom")]
+    >>> life = tl.damage.miner([[[[60e-6] * 3]], [[[100e-6] * 3]]], criteria, traffic, climate, y=[-0.1, 0.0, 0.1])
+    >>> life.governing, f"{life.years('bottom'):.0f} years"
+    ('bottom', '25 years')
     """
 
     columns: ClassVar[Columns] = Columns()

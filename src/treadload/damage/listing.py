@@ -46,17 +46,29 @@ class Listed:
 
 
 def quantities_listed() -> tuple[Listed, ...]:
-    """What a criterion can read. Raises InputError for a package that cannot be loaded."""
+    """What a criterion can read. Raises InputError for a package that cannot be loaded.
+
+    >>> [quantity.name for quantity in tl.damage.quantities_listed() if quantity.unit == "J/m³"]
+    ['distortion_energy', 'dissipated_energy']
+    """
     return tuple(_quantity(name, package) for name, package in QUANTITIES.packages().items())
 
 
 def laws_listed() -> tuple[Listed, ...]:
-    """The laws of criteria. Raises InputError for a package that cannot be loaded."""
+    """The laws of criteria. Raises InputError for a package that cannot be loaded.
+
+    >>> [law.name for law in tl.damage.laws_listed() if "reads the tensile strain at the surface" in law.asks]
+    ['mepdg-top-down']
+    """
     return tuple(_law(name, package) for name, package in CRITERIA.packages().items())
 
 
 def listed(name: str) -> Listed:
-    """A quantity or a law by its word. Raises InputError for a word that is neither."""
+    """A quantity or a law by its word. Raises InputError for a word that is neither.
+
+    >>> tl.damage.listed("mepdg-top-down").asks
+    'reads the tensile strain at the surface; modulus (Pa), thickness (m), air_voids, binder_volume, [calibration]'
+    """
     for registry, describe in ((QUANTITIES, _quantity), (CRITERIA, _law)):
         packages = registry.packages()
         if name in packages:

@@ -53,6 +53,13 @@ def miner(
     counts for laws that do not include it (`includes_wander`); with those that do, such as the French ones whose k_c
     was fitted to roads on which wheels wander, it would count twice: a warning gives both lives. The years are those
     after which the damage at the worst place is 1. Raises InputError for wrong shapes.
+
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=820e3)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> life = tl.damage.miner([[[[90e-6, 120e-6, 90e-6]]]], [base], traffic, climate, y=[-0.1, 0.0, 0.1])
+    >>> f"{life.years('base'):.0f} years"  # a million passes at 120 microstrain, 100 000 a year
+    '10 years'
     """
     values = np.asarray(readings)
     # Single numbers stay: of many classes and seasons they are most of what a life keeps.

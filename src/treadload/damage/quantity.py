@@ -94,6 +94,10 @@ class Quantity(ABC):
     length of road is read near the surface. extends: True for an extension, which `assess` can judge; strain: whether
     it is one in space or in the horizontal plane. needs_tension: True if it does harm only where a principal stress
     is tensile. between_layers: True if it describes failure of the bond of an interface.
+
+    >>> quantity: tl.damage.Quantity = tl.damage.VerticalShear()
+    >>> quantity.words, quantity.in_words(250e-6)
+    ('vertical shear strain', '250 microstrain')
     """
 
     name: str

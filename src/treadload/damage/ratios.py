@@ -31,6 +31,12 @@ class OctahedralRatio(Quantity):
     cohesion: c, of triaxial tests at the temperature of the layer. friction_angle: φ.
     τ_oct / [2√2/(3 - sin φ) (c cos φ - p sin φ)] with the mean stress p, tension positive: Mohr and Coulomb's line of
     triaxial compression as a cone. Readings are at most 1000. Raises InputError.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(1e9, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.1, 8e5), road, depths=[0.05], x=[0.0, 0.1], y=[0.0])
+    >>> ratio = tl.damage.OctahedralRatio(cohesion=200e3, friction_angle=0.7).field(response.dataset)
+    >>> [f"{value:.2f}" for value in ratio.values.ravel()]  # larger below the edge of the load than below its centre
+    ['0.48', '0.58']
     """
 
     cohesion: Pressure

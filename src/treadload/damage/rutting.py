@@ -32,6 +32,10 @@ class Rutting:
     their dry mass, in (0, 0.4]. calibration: local factor on all of the rut, > 0. Raises InputError.
     Source: NCHRP 1-37A (2004), part 3, chapter 3: asphalt as in `damage.asphalt_rut`; unbound layers and soil after
     Tseng and Lytton (1989), its equations 3.3.10, 3.3.11 and 3.3.19, as coded in ProductOneME (commit c89fe2b).
+
+    >>> ratio = tl.damage.Rutting(limit=0.0127).soil_ratio(1e6)
+    >>> f"{ratio:.0f} times the resilient strain after a million load repetitions"
+    '14 times the resilient strain after a million load repetitions'
     """
 
     limit: Length | None = None

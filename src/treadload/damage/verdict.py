@@ -53,6 +53,12 @@ class Verdict(BaseResult, group="damage"):
     depth; extension_by_depth (depth), the largest reading of each; scalars worst_*, which stand between the points of
     the fields where the reading is largest there; NaN angle and dip where no crack opens. line: the fatigue law.
     strain: the strain that the assessment reads, "principal" (three-dimensional) or "in-plane" (horizontal plane).
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[-0.05, 0.0, 0.05], y=[0.0])
+    >>> result = tl.assess(response, tl.FatigueLine(120e-6, -0.2), depth=0.15)
+    >>> f"{float(result.dataset.worst_passes):.2g} load repetitions, then a {result.orientation} crack"
+    '1.8e+04 load repetitions, then a transverse crack'
     """
 
     columns: ClassVar[Columns] = Columns("Fatigue and cracks")

@@ -45,6 +45,12 @@ def solve_interfaces(
 
     Arguments as in `solve_response`, which is asked on both sides where a bond can slide. Returns the dataset of
     `interface_fields`, whose attribute `warnings` (JSON) holds those of the response. Raises InputError.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> braking = tl.response.UniformRectangle(0.2, 0.2, 8e5, traction_x=4e5)
+    >>> fields = tl.life.solve_interfaces(braking, road, x=[0.0, 0.1], y=[0.0])
+    >>> [f"{shear / 1e3:.0f} kPa" for shear in fields.interface_shear.values.ravel()]
+    ['2 kPa', '53 kPa']
     """
     depths = road.interfaces[: len(road.layers) - 1]
     if not len(depths):

@@ -25,6 +25,12 @@ def place_load(load: Load, *, x: float = 0.0, y: float = 0.0, mirror: bool = Fal
     """A load elsewhere: mirrored in the plane y = 0 if asked, then moved by x and y, m.
 
     load: one load; a contact becomes a GridLoad. Raises InputError for several loads or a move that is not a number.
+
+    >>> road, tire = tl.Pavement.half_space(tl.Elastic(100e6, 0.35)), tl.UniformDisc(0.125, 662e3)
+    >>> pair = [tire, tl.response.place_load(tire, y=0.375)]
+    >>> below = [tl.solve_response(load, road, depths=[1.0], points=[[0.0, 0.0]]) for load in (tire, pair)]
+    >>> [f"{response.dataset.stress_zz.item() / 1e3:.1f} kPa" for response in below]
+    ['-15.2 kPa', '-26.3 kPa']
     """
     gathered = gather(load)
     if len(gathered) != 1:

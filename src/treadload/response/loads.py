@@ -43,6 +43,10 @@ class GridLoad:
     like dx², "constant" being twice as near. "bilinear" does not help where the load itself has steps, as at the
     edges of ribs: it blurs them over a cell. source: where it was read and in which units, for people. rib_sides: of
     the tire whose contact it is, as in `Tire`; empty where it is of none.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]], [[0.0, 100e3, 200e3]], spacing=0.05)
+    >>> f"{patch.normal_load / 1e3:.2f} kN", f"{patch.tractive_force / 1e3:.2f} kN"  # shear ahead brakes the wheel
+    ('4.00 kN', '-0.75 kN')
     """
 
     grid: Grid

@@ -36,6 +36,13 @@ class SettledModuli:
     road: elastic there, divided over depth; the material of each part is an `AtStress`. sublayers: how it is divided.
     loads, speed: under which it settled. axis: x and y at which the stress was taken, m. changes: largest relative
     difference between the moduli of the law and those of the road by round, falling.
+
+    >>> base = tl.materials.StressDependent(tl.materials.KTheta(60e6, 0.5))
+    >>> layers = [tl.Layer(tl.Elastic(3e9, 0.35), 0.08), tl.Layer(base, 0.2), tl.Layer(tl.Elastic(60e6, 0.4))]
+    >>> plates = [tl.UniformDisc(0.15, pressure) for pressure in (350e3, 700e3)]
+    >>> settled = [tl.response.settle(plate, tl.Pavement(layers)) for plate in plates]
+    >>> [f"{state.moduli[0] / 1e6:.0f} MPa" for state in settled]  # the heavier load stiffens the base
+    ['71 MPa', '99 MPa']
     """
 
     road: Pavement
@@ -74,6 +81,12 @@ def settle(loads: Load | Sequence[Load], road: Pavement, *, speed: float | None 
     is taken back and damped further, so that differences fall monotonically.
     Raises ConvergenceError with the layer whose modulus does not settle within 15 rounds, and InputError.
     Sources: Huang (2004), Pavement Analysis and Design, chapter 3; Küttler & Wall (2008), Comput. Mech. 43, 61-72.
+
+    >>> base = tl.materials.StressDependent(tl.materials.KTheta(60e6, 0.5))
+    >>> layers = [tl.Layer(tl.Elastic(3e9, 0.35), 0.08), tl.Layer(base, 0.25), tl.Layer(tl.Elastic(60e6, 0.4))]
+    >>> settled = tl.response.settle(tl.UniformDisc(0.15, 700e3), tl.Pavement(layers))
+    >>> [f"{modulus / 1e6:.0f} MPa" for modulus in settled.moduli]  # of the base from top to bottom
+    ['99 MPa', '89 MPa', '81 MPa', '73 MPa', '66 MPa', '61 MPa']
     """
     gathered = gather(loads)
     axis = _axis(gathered)

@@ -37,6 +37,11 @@ class Response(BaseResult, group="response"):
     stress that was added to both horizontal normal stresses, Pa, one per depth; empty where none was, see
     `add_thermal_stress`. contacts: that the loads are, as `solve_response` takes them; empty for other loads and in a
     response that was opened from a file.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.0, 0.15], x=[0.0], y=[0.0])
+    >>> f"deflection {response.dataset.displacement_z.sel(depth=0).item() * 1e3:.2f} mm"
+    'deflection 0.71 mm'
     """
 
     title: ClassVar[str] = "Strain in the road"

@@ -122,7 +122,14 @@ _MARGIN = 0.1
 
 
 def map_grid(loads: Sequence[GridLoad], road: Pavement) -> Grid:
-    """The cells of all wheels, on layers with a margin around them."""
+    """The cells of all wheels, on layers with a margin around them.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]], spacing=0.05)
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> grid = tl.response.map_grid([patch], road)
+    >>> f"{grid.nx} x {grid.ny} cells around a load of {patch.grid.nx} x {patch.grid.ny}"
+    '7 x 5 cells around a load of 3 x 1'
+    """
     grid = common_grid(loads)
     if road.is_homogeneous:
         return grid

@@ -23,6 +23,13 @@ class Fields(BaseResult, group="fields"):
     """Fields that a verb gave as a dataset: criteria of cracking, residual stress, an envelope, a rose, interfaces.
 
     dataset: variables with units and long names.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0, 0.1])
+    >>> fields = tl.results.Fields(tl.damage.compute_quantities(response, ["vertical_shear_strain"]))
+    >>> print(fields.summary())
+    Fields: over 1 depth, 2 y, 2 x
+    vertical shear strain  0 to 0.003441
     """
 
     dataset: xr.Dataset
@@ -69,6 +76,11 @@ def height_map(tire: Tire, spacing: float) -> xr.Dataset:
     """The tire's initial gap on its whole extent, as `Tire.from_height_map` reads it back from a file.
 
     spacing: of the cells, m; a tire that is a height map keeps its own.
+
+    >>> tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
+    >>> gap = tl.results.height_map(tire, spacing=0.01).initial_gap
+    >>> f"{gap.sel(x=0.1, y=0.05, method='nearest').item() * 1e3:.1f} mm"  # between tire and road, 0.1 m ahead
+    '10.1 mm'
     """
     grid = tire.fixed_grid or Grid.on_lattice(*tire.extent, spacing)
     gap = {"initial_gap": (("y", "x"), tire.height_map(grid))}

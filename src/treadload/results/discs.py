@@ -32,6 +32,11 @@ class EquivalentDiscs(Described):
     forces on the road that are left out, N; spread_x, spread_y: root mean square of the distance of the load from its
     centre, of the discs over that of the contact; overlap: the largest share of its radius by which a disc reaches
     over another.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]] * 2, spacing=0.05)
+    >>> discs = tl.results.equivalent_discs(tl.Footprint(patch))
+    >>> f"the peak of {discs.lost['pressure'] / 1e3:.0f} kPa becomes {discs.lost['peak'] / 1e3:.0f} kPa"
+    'the peak of 800 kPa becomes 533 kPa'
     """
 
     discs: tuple[UniformDisc, ...]
@@ -90,6 +95,11 @@ def equivalent_discs(contact: Source, count: int = 1, *, pressure: float | None 
     contact gives the same discs. A disc has the load, the area and the centre of load of its group. pressure: of all
     discs, Pa, such as the inflation pressure, in place of the area: radii then follow from the loads. Returns the
     discs and what is lost; they go into `solve_response`. Raises InputError for a count that no cells can fill.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]] * 2, spacing=0.05)
+    >>> disc = tl.results.equivalent_discs(tl.Footprint(patch)).discs[0]
+    >>> f"radius {disc.radius * 1e3:.0f} mm, {disc.pressure / 1e3:.0f} kPa"
+    'radius 69 mm, 533 kPa'
     """
     data = dataset_of(contact)
     if "pressure" not in data or not {"x", "y"} <= set(data["pressure"].dims):

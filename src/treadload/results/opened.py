@@ -29,6 +29,12 @@ class Results(Study):
     Each part is the object that a verb returned, by its name: `results.contact`, `results["response_2"]`; `in`, `len`
     and iteration go over the names. A part is created on first access. tree: the tree of xarray that holds
     them. where: the file, for errors.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0, 0.1])
+    >>> results = tl.results.Results(tl.results.to_tree({"plate": response}))
+    >>> list(results), f"{results.plate.dataset.stress_zz.min().item() / 1e3:.0f} kPa"
+    (['plate'], '-453 kPa')
     """
 
     def __init__(self, tree: xr.DataTree, where: str = "these results") -> None:

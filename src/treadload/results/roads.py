@@ -10,6 +10,13 @@ def road_in_rows(road: Pavement, case: Case | None = None) -> str:
     """The layers of a road as a table in text: thickness, modulus, bond, temperature; the speed of the wheels.
 
     road: at its temperature. case: that gives the temperatures and the speed.
+
+    >>> soil = tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15, name="asphalt"), soil])
+    >>> print(tl.results.road_in_rows(road))
+    road from the surface down
+      1  asphalt    150 mm  E = 5000 MPa, ν = 0.35, bonded to the layer below
+      2  soil               E = 60 MPa, ν = 0.4
     """
     rows = rows_of(road, case)
     speed = case.speed if case is not None and road.is_viscoelastic else None

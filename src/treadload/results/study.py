@@ -15,7 +15,14 @@ from treadload.rows import Row
 
 
 class Study(Described):
-    """Base of what holds several results by name, as the result of a case and what a file held do."""
+    """Base of what holds several results by name, as the result of a case and what a file held do.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0, 0.1])
+    >>> study: tl.results.Study = tl.results.Results(tl.results.to_tree(response))
+    >>> [row.label for row in study.rows() if row.unit == "microstrain"]
+    ['tensile strain, three-dimensional', 'tensile strain, horizontal plane']
+    """
 
     if TYPE_CHECKING:
 

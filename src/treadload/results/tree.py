@@ -69,6 +69,13 @@ def to_tree(
     The root carries the title, the case as TOML text, the layers of the road as JSON, versions, the date and the
     citations as JSON; the group /asked the inputs of every part, for `open_results`.
     Raises InputError for what is not a result, and for a name that no file can hold.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> plates = {"light": tl.UniformDisc(0.15, 500e3), "heavy": tl.UniformDisc(0.15, 700e3)}
+    >>> solved = {name: tl.solve_response(load, road, depths=[0.15], x=[0], y=[0]) for name, load in plates.items()}
+    >>> tree = tl.results.to_tree(solved, title="plate tests")
+    >>> [f"{tree[name].stress_zz.item() / 1e3:.0f} kPa" for name in solved]
+    ['-323 kPa', '-453 kPa']
     """
     named = dict(named_parts(parts))
     names = {id(part): name for name, part in named.items()}
@@ -120,7 +127,14 @@ def to_tree(
 
 
 def as_tree(results: Any) -> xr.DataTree:
-    """A tree of whatever verbs give: a tree, the result of a case, results that were opened, a result or several."""
+    """A tree of whatever verbs give: a tree, the result of a case, results that were opened, a result or several.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0, 0.1])
+    >>> tree = tl.results.as_tree({"plate": response})
+    >>> f"{tree['plate'].stress_zz.min().item() / 1e3:.0f} kPa"
+    '-453 kPa'
+    """
     if isinstance(results, xr.DataTree):
         return results
     whole = getattr(results, "to_tree", None)

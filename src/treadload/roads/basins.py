@@ -85,6 +85,10 @@ class Basins:
     road (n,), m, NaN where it is not known. section: a label for each drop, or (). temperature: of the asphalt (n,),
     °C, NaN where it is not known. thickness: name of a layer → its thickness at each drop (n,), m; 0 where the layer
     is absent. source: where they are from. Raises InputError.
+
+    >>> basins = tl.roads.Basins([[400e-6, 300e-6, 120e-6]], offsets=[0.0, 0.3, 0.9], load=[50e3], plate_radius=0.15)
+    >>> f"{basins.compliance[0] * 1e9:.0f} µm per kN below the plate"
+    '8 µm per kN below the plate'
     """
 
     deflection: Array

@@ -30,6 +30,12 @@ class DropHistories:
 
     time: (nt,), s, evenly spaced from the start of the record. force: (n, nt), N. deflection: (n, s, nt), m, down.
     offsets, plate_radius, plate, station, temperature, thickness, source: as in `Basins`. Raises InputError.
+
+    >>> time = [0.002 * k for k in range(25)]
+    >>> force = [max(0.0, 50e3 * 4 * t / 0.03 * (1 - t / 0.03)) for t in time]
+    >>> drop = tl.roads.DropHistories(time, [force], [[[8e-9 * newton for newton in force]]], [0.0], 0.15)
+    >>> f"{drop.peaks.load[0] / 1e3:.0f} kN, {drop.peaks.deflection[0, 0] * 1e6:.0f} µm"
+    '50 kN, 398 µm'
     """
 
     time: Array

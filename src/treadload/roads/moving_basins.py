@@ -30,6 +30,12 @@ class DualWheels:
 
     spacing: between the middles of the tires, m. width, length: of each contact, m. `loads` makes the loads of 1 N
     together; their middle is the origin. Raises InputError for tires without a gap between them.
+
+    >>> tl.roads.DualWheels(spacing=0.2, width=0.22, length=0.2)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: tires of 220 mm at 200 mm leave a gap of -20 mm, less than 10 mm, in which no
+        sensor can look
     """
 
     spacing: float
@@ -66,6 +72,11 @@ class MovingBasins:
     wheels' middle (s,), m, rising, negative behind. load: on the wheels (n,), N. speed: (n,), m/s. wheels:
     `DualWheels` or loads; only their shape counts. side: of the sensors' line to the right of the wheels' middle, m.
     station, position, section, temperature, thickness, source: as in `Basins`. Raises InputError.
+
+    >>> wheels = tl.roads.DualWheels(spacing=0.35, width=0.22, length=0.2)
+    >>> basins = tl.roads.MovingBasins.from_velocity([[10e-3, 6e-3]], [0.1, 0.3], [50e3], [20.0], wheels)
+    >>> [f"{slope * 1e6:.0f} µm/m" for slope in basins.slope[0]]
+    ['500 µm/m', '300 µm/m']
     """
 
     slope: Array

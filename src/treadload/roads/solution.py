@@ -40,6 +40,13 @@ class Backcalculation(BaseResult, group="backcalculation"):
 
     dataset: over `basin`, `layer_name`, `unknown` and `sensor`; see `treadload.variables`. structure: that was asked.
     stats: how it was solved. warnings: sentences for the user.
+
+    >>> layers = [tl.Layer(tl.Elastic(5e9, 0.35), 0.15, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), None, "soil")]
+    >>> deflections = [905e-6, 740e-6, 560e-6, 415e-6, 255e-6]
+    >>> basins = tl.roads.Basins([deflections], [0.0, 0.3, 0.6, 0.9, 1.5], [50e3], 0.15)
+    >>> result = tl.backcalculate(basins, tl.Pavement(layers), stiff_layer=None)
+    >>> "asphalt of {:.1f} to {:.1f} GPa".format(*(modulus / 1e9 for modulus in result.interval(0, "asphalt")))
+    'asphalt of 5.3 to 7.9 GPa'
     """
 
     title: ClassVar[str] = "Backcalculated layer moduli"

@@ -20,6 +20,14 @@ def design_of(case: Case, contacts: Contacts | None = None) -> Design:
     """The design of a case: tire, road, traffic, climate, criteria, options of its tables. Raises InputError.
 
     contacts: of the tire of the case, those that are solved already among them; left out, none is.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> design = tl.steps.design_of(tl.Case.from_dict(case))
+    >>> f"{design.traffic.classes[0].wheel_load / 1e3:.0f} kN on a wheel"
+    '50 kN on a wheel'
     """
     contacts = contacts or Contacts(case.build_tire(), spacing_of(case))
     return Design(

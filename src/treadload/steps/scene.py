@@ -36,6 +36,12 @@ class Options:
     processes of a calibration. state: file that keeps what a calibration has solved. contact: of the case, where it
     is known. touch: solves the contacts of the case. contacts: of a service life, those known among them.
     only_numbers: True where no maps are wanted, as in a study.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> options = tl.steps.Options(leave_out=("slices", "bowl"))
+    >>> [step.name for step in tl.steps.Scene(case, options=options).steps]
+    ['contact', 'response']
     """
 
     leave_out: tuple[str, ...] = ()
@@ -49,7 +55,14 @@ class Options:
 
 
 class Scene:
-    """A case while it is solved; each step is solved once, when its result is first needed."""
+    """A case while it is solved; each step is solved once, when its result is first needed.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> scene = tl.steps.Scene(case, options=tl.steps.Options(leave_out=("slices",)))
+    >>> [step.name for step in scene.steps]
+    ['contact', 'response', 'bowl']
+    """
 
     def __init__(self, case: Case, progress: Progress | None = None, options: Options | None = None) -> None:
         self.case = case

@@ -107,6 +107,11 @@ def case_as_python(case: Case) -> str:
     results in `contact`, `response` and `verdict`; what else a case can ask for becomes `Case.from_dict` and
     `tl.run`, with the results in `result`. Relative paths of files start from the folder of the case. Returns the
     text of a script.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> print(tl.steps.case_as_python(case).splitlines()[5])
+    wheel = tl.Rolling(normal_load=32500.0, friction=0.7)
     """
     script = Script(case)
     head = [f'"""{_doc(case.title)}"""', ""] if case.title else []

@@ -36,6 +36,12 @@ class Input:
     name: of it in results, as the user wrote it. key: its path in the case. unit: SI unit of numbers, "" of pure
     ones, None for what is none. dims: dimensions that it varies over. values: what the case is given, an object array
     over these dimensions. labels: the same as coordinates of a dataset.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> load = tl.sweeps.from_texts(case, ["normal_load=20e3:40e3:3"]).inputs[0]
+    >>> load.key, load.unit, [float(value) for value in load.values]
+    ('rolling.normal_load', 'N', [20000.0, 30000.0, 40000.0])
     """
 
     name: str
@@ -75,6 +81,12 @@ class Design:
 
     sizes: of its dimensions, in order. inputs: what is varied over them. labels: of a list of cases, name → what
     identifies each, the row of its file and the ids that stand there. faults: of a list, why a case cannot be read.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> design = tl.sweeps.from_texts(case, ["normal_load=20e3:40e3:3", "inflation_pressure=[6e5, 8e5]"])
+    >>> f"{design.count} cases", design.at(5)
+    ('6 cases', {'rolling.normal_load': 40000.0, 'tire.inflation_pressure': 800000.0})
     """
 
     sizes: Mapping[str, int]

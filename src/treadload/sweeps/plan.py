@@ -20,6 +20,13 @@ def plan_sweep(case: Case, design: Design, fields: Sequence[str] = ()) -> str:
     """What `sweep` would do, as text: the cases, what is kept, those that cannot be read, and the plan of the first.
 
     Reads the tire. Raises InputError where no case can be read.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel["rolling"] = {"normal_load": "32.5 kN", "friction": 0.7}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> plan = tl.sweeps.plan_sweep(case, tl.sweeps.from_texts(case, ["normal_load=20e3:40e3:3"]))
+    >>> print(plan.splitlines()[1])
+    varied    rolling.normal_load: 20000 to 40000 N, 3 values
     """
     check_varied(case)
     readings = selectors_for(fields, case)

@@ -22,6 +22,12 @@ def sampled(
     ranges: key → (low, high), in SI units or with their units. count: of the cases. method: "sobol", a scrambled
     Sobol sequence, best at powers of two; "latin", a Latin hypercube; "random". seed: of the scrambling; the same
     gives the same cases. Raises InputError.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> design = tl.sweeps.sampled(case, {"normal_load": ("20 kN", "40 kN")}, 16)
+    >>> f"{design.count} loads, {sum(load < 30e3 for load in design.inputs[0].values)} of them below 30 kN"
+    '16 loads, 8 of them below 30 kN'
     """
     if method not in METHODS:
         raise InputError(f"a sample is one of {', '.join(METHODS)}, got {method!r}")
@@ -47,7 +53,13 @@ def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
 
 
 def bounds_of(case: Case, ranges: Mapping[str, tuple[object, object]]) -> dict[str, tuple[float, float]]:
-    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers."""
+    """Ranges in SI units: name → (low, high). Raises InputError for what is no range of numbers.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> tl.sweeps.bounds_of(case, {"normal_load": ("20 kN", "40 kN")})
+    {'normal_load': (20000.0, 40000.0)}
+    """
     if not ranges:
         raise InputError("nothing is varied; give keys and ranges, such as {'rolling.friction': (0.3, 0.9)}")
     bounds = {}

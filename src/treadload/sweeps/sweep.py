@@ -301,7 +301,11 @@ def _go_on(store: Store) -> str:
 
 
 def causes_of(failures: Iterable[tuple[int, str]]) -> dict[str, list[int]]:
-    """Numbers of cases by why they failed, see `by_cause`. failures: number and reason of each."""
+    """Numbers of cases by why they failed, see `by_cause`. failures: number and reason of each.
+
+    >>> tl.sweeps.causes_of([(2, "the tire does not touch the road"), (7, "the tire does not touch the road")])
+    {'the tire does not touch the road': [2, 7]}
+    """
     by_reason: dict[str, list[int]] = {}
     for number, reason in failures:
         by_reason.setdefault(reason, []).append(number)

@@ -37,6 +37,12 @@ def from_texts(case: Case, texts: Sequence[str], *, sample: str = "", seed: int 
     texts: "key=low:high:count", evenly spaced, with ":log" behind it evenly in their logarithms; "key=[a, b, c]", a
     list of TOML; every combination of them is a case. sample: "sobol:256", "latin:100" or "random:50": so many cases
     spread over ranges "key=low:high" instead. seed: of the sample. Raises InputError.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> design = tl.sweeps.from_texts(case, ["normal_load=20e3:40e3:3", "friction=[0.5, 0.7]"])
+    >>> f"{design.count} cases", design.at(5)
+    ('6 cases', {'rolling.normal_load': 40000.0, 'rolling.friction': 0.7})
     """
     pairs: dict[str, str] = {}
     for text in texts:

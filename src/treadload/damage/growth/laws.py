@@ -103,6 +103,10 @@ class FromStrength(GrowthLaw):
     larger then. Raises InputError.
     Source: Molenaar (1984), PAAPT 53, as thermal cracking of NCHRP 1-37A takes it up; constants from memory, to
     verify.
+
+    >>> law = tl.damage.FromStrength(strength=3e6)
+    >>> f"{law.at(5e9).rate / law.at(10e9).rate:.1f} times faster at half the modulus"
+    '5.7 times faster at half the modulus'
     """
 
     exponent: Number = 4.0

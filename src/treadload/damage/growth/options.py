@@ -34,6 +34,11 @@ class CrackGrowth:
     steps: lengths at which its stress intensity is solved. points: along the crack at which its faces may open,
     touch and rub. scatter: standard deviation of log₁₀ of the passes to
     initiation; left out, that of the criterion's law or 0.25. Raises InputError.
+
+    >>> tl.damage.CrackGrowth("surface", initial_length=0.005, scatter=2.5)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: the scatter of log10 of the passes must lie in [0, 2], got 2.5
     """
 
     criterion: str

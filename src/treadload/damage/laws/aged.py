@@ -105,6 +105,11 @@ class AgedSurface:
     those of the specimens behind the table of its moduli, from which stiffness is corrected.
     Sources: the binder by the Global Aging System (Mirza and Witczak, 1995); the falls of strength and stiffness with
     voids are fitted to 36 cores of dikes, 22 to 48 years old, 1.4 to 16 % of voids. Raises InputError.
+
+    >>> top = tl.damage.AgedSurface(tl.materials.GlobalAging(age=15, mean_air=12.0, binder="PG 64-22"))
+    >>> lives = [top.line(depth=depth).allowable_passes(150e-6) for depth in (0.0, 0.05)]
+    >>> f"the surface allows {lives[0] / lives[1]:.1f} times the repetitions of 50 mm below it"
+    'the surface allows 1.9 times the repetitions of 50 mm below it'
     """
 
     ageing: GlobalAging

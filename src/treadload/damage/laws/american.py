@@ -117,6 +117,10 @@ class MepdgTopDown(_Mepdg):
     mix's volume. calibration: local factor on the passes. C as in `MepdgBottomUp`; k₁ = 1/(0.01 + 12/(1 + exp(15.676
     - 2.8186 h))), h in inches. Source: NCHRP 1-37A (2004), appendix II eq. 27, as coded in ProductOneME: part 3 of
     the guide misprints k₁.
+
+    >>> law = tl.damage.MepdgTopDown(3e9, thickness=0.15, air_voids=0.07, binder_volume=0.11)
+    >>> f"{law.allowable_passes(100e-6):.2g} load repetitions at 100 microstrain"
+    '7.7e+04 load repetitions at 100 microstrain'
     """
 
     reads = SURFACE_EXTENSION

@@ -48,6 +48,10 @@ class BondStrength(ABC):
     """The strength of a bond, whichever the law: subclasses are frozen dataclasses.
 
     caveat: which of its numbers have no source that was read; a field, or nothing.
+
+    >>> bond: tl.damage.BondStrength = tl.damage.InterfaceStrength(cohesion=0.8e6, friction_angle=0.6)
+    >>> [f"{bond.utilisation(400e3, normal):.2f}" for normal in (0.0, -300e3)]  # compression adds friction
+    ['0.50', '0.67']
     """
 
     caveat: str = ""
@@ -208,6 +212,12 @@ class BondUtilisation(Quantity):
 
     strength: of the bond; left out, a response does not give it. Readings are at most 1000, round-off of the solver,
     as on an interface without shear, is 0. The layers separate along the horizontal plane.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.125, 8e5), road, depths=[0.06], x=[0.0, 0.125], y=[0.0])
+    >>> bond = tl.damage.BondUtilisation(tl.damage.InterfaceStrength(cohesion=0.4e6))
+    >>> [f"{share:.2f}" for share in bond.field(response.dataset).values.ravel()]
+    ['0.00', '0.14']
     """
 
     strength: BondStrength | None = None

@@ -34,6 +34,10 @@ class EnergyRatio:
     contact leaves at the surface, which depends on the tread and on the cells and may exceed the strength: `warnings`
     states so. Read in a thesis of the University of Florida after Roque et al. (2004). Verified by three mixes of a
     report of the Florida DOT (2013, table 4): 2.812, 4.165 and 10.973 at 148 psi, printed 2.81, 4.16 and 10.93.
+
+    >>> mix = tl.damage.EnergyRatio(5e-11, 0.45, strength=2.0e6, fracture_energy=3000.0, resilient_modulus=9e9)
+    >>> f"{float(mix.ratio(1.03e6)):.1f}"  # 1 and more resists cracking from the surface down
+    '4.2'
     """
 
     creep_compliance: float

@@ -89,6 +89,10 @@ def aggressiveness(
     0.75 and in a tridem 1.1 for bituminous layers, 12 and 113 for hydraulic ones. vehicles: N, heavy vehicles
     weighed. power: α, 5 for bituminous layers, 12 for hydraulic ones. reference: P₀, N.
     α and K are from memory, not verified in a source. Raises InputError.
+
+    >>> axles = [(80e3, 40, 1.0), (130e3, 10, 1.0), (80e3, 30, 0.75)]
+    >>> f"{tl.damage.aggressiveness(axles, vehicles=20, power=5):.2f} axles of 130 kN per heavy vehicle"
+    '0.78 axles of 130 kN per heavy vehicle'
     """
     positive("vehicles", vehicles, remedy="count the vehicles that were weighed")
     positive("reference", reference, "N", "the French axle has 130e3")
@@ -113,6 +117,10 @@ def equivalent_axles(
     vehicles_per_day: MJA, heavy vehicles per day and direction in the first year. years: n. aggressiveness: CAM,
     as in `AGGRESSIVENESS`, or of axles that were weighed, see the function `aggressiveness`.
     growth: t, per year. kind: C = ((1+t)^n - 1)/t "geometric", or n (1 + (n-1) t/2) "arithmetic". Raises InputError.
+
+    >>> axles = tl.damage.equivalent_axles(750, years=20, aggressiveness=0.8, growth=0.02)
+    >>> f"{axles / 1e6:.1f} million axles of 130 kN"
+    '5.3 million axles of 130 kN'
     """
     for name, value in {
         "vehicles_per_day": vehicles_per_day,

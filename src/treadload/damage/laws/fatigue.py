@@ -30,6 +30,10 @@ class FatigueLaw(Protocol):
 
     A law reads one quantity of a loading, positive where it does harm: an extension, a compression on the
     subgrade, a tensile stress.
+
+    >>> law: tl.damage.FatigueLaw = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
+    >>> f"{law.allowable_strain(1e7) * 1e6:.0f} microstrain for 10 million load repetitions"
+    '76 microstrain for 10 million load repetitions'
     """
 
     @property
@@ -76,7 +80,12 @@ class FatigueLaw(Protocol):
 
 
 class PowerLaw(ABC):
-    """A law N = 10⁶ (ε / ε₁)^(1/b) with ε₁ the reading that allows a million passes and b < 0."""
+    """A law N = 10⁶ (ε / ε₁)^(1/b) with ε₁ the reading that allows a million passes and b < 0.
+
+    >>> law: tl.damage.PowerLaw = tl.FatigueLine(epsilon_6=120e-6, slope=-0.2)
+    >>> f"{law.allowable_passes(0.9 * 120e-6) / 1e6:.2f} million"  # a strain lower by a tenth
+    '1.69 million'
+    """
 
     reads: Quantity
     # What sentences call it, and its reading of a million passes.

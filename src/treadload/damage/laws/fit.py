@@ -23,6 +23,11 @@ class FittedLine:
     exponent, exponent_error: 1/b and its standard error, 0 where b was fixed. covariates: c. scatter: standard
     deviation of log₁₀ N about the line. unseen: (n,), residuals of log₁₀ N, each by the line through all the rest.
     scores: (n,), ln of the probability density of each, by the line and the scatter of all the rest, nats.
+
+    >>> strains, passes = [200e-6, 170e-6, 140e-6, 110e-6, 80e-6], [8e4, 1.6e5, 4.7e5, 1.5e6, 7.5e6]
+    >>> lines = [tl.damage.fit_fatigue_line(strains, passes, slope=slope) for slope in (None, -0.25)]
+    >>> [f"{line.scatter:.2f}" for line in lines]  # a fixed slope of -0.25 does not fit these tests
+    ['0.02', '0.16']
     """
 
     at_a_million: float
@@ -66,6 +71,11 @@ def fit_fatigue_line(
     fitted. covariates: (n, m), such as voids, that shift log N. Residuals unseen are those of least squares without
     the specimen, r/(1 - h) with h its leverage. log N is the scattering side: the slope of log r over log N is
     flatter. Raises InputError.
+
+    >>> strains, passes = [200e-6, 170e-6, 140e-6, 110e-6, 80e-6], [8e4, 1.6e5, 4.7e5, 1.5e6, 7.5e6]
+    >>> line = tl.damage.fit_fatigue_line(strains, passes)
+    >>> f"{line.at_a_million * 1e6:.0f} microstrain at a million, slope {line.slope:.2f}"
+    '120 microstrain at a million, slope -0.20'
     """
     r, n = np.asarray(readings, dtype=float), np.asarray(passes, dtype=float)
     if r.ndim != 1 or r.shape != n.shape or len(r) < _FEWEST:

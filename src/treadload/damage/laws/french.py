@@ -52,6 +52,10 @@ class FrenchBituminous(PowerLaw):
     left out, k_s = 1. thickness_scatter: Sh, m, in place of the rule for it.
     The passes are those of the axle that the strain belongs to, by convention 130 kN on twin wheels.
     Source: NF P98-086 (2019) by a secondary source.
+
+    >>> law = tl.damage.FrenchBituminous.of(tl.catalogue.mixes["GB3"], thickness=0.2, risk=0.05)
+    >>> f"{law.allowable_strain(5e6) * 1e6:.0f} microstrain for 5 million axles of 130 kN"
+    '72 microstrain for 5 million axles of 130 kN'
     """
 
     epsilon_6: float
@@ -153,6 +157,10 @@ class FrenchHydraulic(PowerLaw):
     jointed. platform_modulus: of what lies below, Pa; left out, k_s = 1. thickness_scatter: Sh, m.
     What it reads is a stress: `allowable_strain` returns Pa.
     Source: NF P98-086 (2019) by a secondary source.
+
+    >>> law = tl.damage.FrenchHydraulic(0.75e6, -1 / 15, scatter=1.0, risk=0.05, calibration=1.4)
+    >>> f"{law.allowable_strain(5e6) / 1e6:.2f} MPa of tension for 5 million axles of 130 kN"
+    '0.67 MPa of tension for 5 million axles of 130 kN'
     """
 
     sigma_6: float

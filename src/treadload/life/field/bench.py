@@ -38,6 +38,11 @@ def field_look(table: Table) -> FieldLook:
     """What a table of sections shows without any fit: shares cracked so far, by class of age; of few sections, too.
 
     table: sections, the name of a table of the catalogue, or a TOML file. Raises InputError.
+
+    >>> look = tl.life.field_look("LTPP").dataset
+    >>> shares = look.seen_share.sel(event="wheel-path").values
+    >>> [f"{share:.0%}" for share in shares[:4]]  # of sections that have cracked, by class of age
+    ['0%', '40%', '62%', '70%']
     """
     sections = _opened(table)
     rows = {event: looked_at(sections, event) for event in sections.events}

@@ -44,6 +44,11 @@ class SectionTable:
     where it is missing. surveys: ages of all surveys of each section, years. title, source, caveats: of the table.
     warnings: sentences about what is missing. predictions: file of ages
     that mechanics predicted for them. priors: keys of `Priors` where the table states them.
+
+    >>> table = tl.life.field_tables["LTPP"]
+    >>> thick = table.at(table.thickness > 0.2)
+    >>> f"{len(thick.sections)} of {len(table.sections)} sections have more than 200 mm of asphalt"
+    '38 of 149 sections have more than 200 mm of asphalt'
     """
 
     name: str

@@ -80,6 +80,10 @@ def read_field_table(path: str | os.PathLike[str]) -> SectionTable:
     """The road sections of a TOML file, see `TableFile`, or of the catalogue: "LTPP".
 
     Raises InputError: no ages, surveys before construction, an empty cell that can mean two things, units by mistake.
+
+    >>> thickness = tl.life.read_field_table("LTPP").thickness
+    >>> f"{len(thickness)} sections with {thickness.min() * 1e3:.0f} to {thickness.max() * 1e3:.0f} mm of asphalt"
+    '149 sections with 23 to 399 mm of asphalt'
     """
     if isinstance(path, str) and not path.endswith(".toml"):
         return field_tables[path]

@@ -22,7 +22,13 @@ _TINY = 1e-12
 
 @dataclass(frozen=True)
 class MonteCarlo:
-    """Draws of a reliability: how many, from 1000 to 10 million, and from which seed. Raises InputError."""
+    """Draws of a reliability: how many, from 1000 to 10 million, and from which seed. Raises InputError.
+
+    >>> tl.life.MonteCarlo(draws=100)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: draws must lie in [1000, 10000000], got 100; 100 000 is the default
+    """
 
     draws: int = 100_000
     seed: int = 1

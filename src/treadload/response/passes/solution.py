@@ -49,6 +49,12 @@ class Passes(BaseResult, group="passes"):
     warnings: sentences. loads, road, speed: the question; of a drum on its track drum and normal_load, N, in the
     place of loads, and in the dataset pressure over (pass, y, x), and by pass approach, contact_length,
     contact_width, contact_area, peak_pressure, pressure_centre_x and rolling_resistance.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> tire, road = tl.UniformDisc(0.1, 0.3e6), tl.Pavement.half_space(yielding)
+    >>> passes = tl.response.roll_passes(tire, road, passes=3, spacing=0.05, layers=4)
+    >>> f"{passes.verdict}; first yield at {0.3 * passes.dataset.attrs['elastic_load_factor']:.1f} MPa"
+    'elastic; first yield at 0.7 MPa'
     """
 
     title: ClassVar[str] = "Load repetitions on a road that yields"

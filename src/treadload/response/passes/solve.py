@@ -51,6 +51,12 @@ def roll_passes(
     with a warning above 10 %.
     Raises InputError for a road that cannot yield, laws of passes among others, a missing speed, and a plastic zone
     that reaches the box.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> tire, road = tl.UniformDisc(0.1, 0.3e6), tl.Pavement.half_space(yielding)
+    >>> passes = tl.response.roll_passes(tire, road, passes=3, spacing=0.05, layers=4)
+    >>> f"{passes.verdict}; yields from {passes.dataset.attrs['elastic_load_factor']:.1f} times this load"
+    'elastic; yields from 2.2 times this load'
     """
     start = time.perf_counter()
     question = problem_of(loads, road, Zone(**zone), speed=speed, offsets=offsets, wander=wander, tell=progress)
