@@ -36,11 +36,11 @@ def test_names_at_the_top_have_examples(documented):
     assert len(documented) >= 60
 
 
-def test_examples_of_public_names_hold(documented):
+def test_examples_of_public_names_hold(documented, tmp_path):
     report = []
     runner = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE)
     for name, thing in documented.items():
-        test = doctest.DocTestParser().get_doctest(thing.__doc__, {"tl": tl}, name, None, 0)
+        test = doctest.DocTestParser().get_doctest(thing.__doc__, {"tl": tl, "folder": tmp_path}, name, None, 0)
         assert test.examples
         runner.run(test, out=report.append)
     assert not report, "".join(report)

@@ -57,6 +57,10 @@ class GlobalAging:
     Raises InputError.
     Source: Mirza & Witczak (1995), J. Assoc. Asphalt Paving Technol. 64; NCHRP 1-37A (2004), part 2, chapter 2; the
     constants are from memory, to verify.
+
+    >>> ageing = tl.materials.GlobalAging(age=10, mean_air=15, binder="AC-20")
+    >>> f"at 30 °C as stiff as the young mix at {ageing.as_cold_as(30, depth=0.0):.0f} °C"
+    'at 30 °C as stiff as the young mix at 23 °C'
     """
 
     age: Years
@@ -130,6 +134,11 @@ class Aged:
     """A material that depends on temperature, aged at a depth.
 
     material: young. ageing: how it ages. depth: m.
+
+    >>> mix = tl.catalogue.mixes["EB-BBSG3"]
+    >>> old = tl.materials.Aged(mix, tl.materials.GlobalAging(age=10, mean_air=15, binder="AC-20"), depth=0.0)
+    >>> f"{old.at(15).modulus / mix.at(15).modulus:.2f} times as stiff at 15 °C after ten years"
+    '2.04 times as stiff at 15 °C after ten years'
     """
 
     material: TemperatureDependent

@@ -154,6 +154,13 @@ class Aggregates:
 
     packing: where they are; made by `random`, `from_centres` and `from_voxels`. material: of the stones; softer than
     the mortar is allowed; None: voids.
+
+    >>> stone = tl.Elastic(60e9, 0.2)
+    >>> tl.materials.Aggregates.from_centres([0.0, 0.009], [0.0, 0.0], [0.02, 0.02], 0.005, stone)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: 1 pair(s) of stones overlap, stones 1 and 2 by 1 mm; stones are solid: move
+    them apart or give smaller radii
     """
 
     packing: Drawn | Spheres | Scanned

@@ -24,7 +24,12 @@ _KELVIN = np.array([1.0, 1.0, 1.0, *[np.sqrt(2.0)] * 3])
 
 
 class Anisotropic(ABC):
-    """A linear elastic material whose stiffness depends on direction."""
+    """A linear elastic material whose stiffness depends on direction.
+
+    >>> base = tl.materials.TransverselyIsotropic(100e6, 300e6, 90e6, poisson_horizontal=0.15, poisson_vertical=0.35)
+    >>> round(float(1 / base.compliance[2, 2]) / 1e6)  # MPa, vertical Young's modulus
+    300
+    """
 
     @property
     @abstractmethod
@@ -87,6 +92,10 @@ class TransverselyIsotropic(Anisotropic):
     An isotropic material has horizontal = vertical = E, both ratios ν, and shear = E / 2(1 + ν). Raises InputError
     with the smallest eigenvalue for numbers that no material has: it takes |ν_hh| < 1 and
     1 - ν_hh > 2 ν_vh² E_h / E_v.
+
+    >>> base = tl.materials.TransverselyIsotropic(100e6, 300e6, 90e6, poisson_horizontal=0.15, poisson_vertical=0.35)
+    >>> round(base.shear_horizontal / 1e6, 1)  # MPa, shear modulus in the horizontal plane
+    43.5
     """
 
     horizontal: Modulus

@@ -26,6 +26,11 @@ class MaterialFit(Generic[M]):
     """A material and how well it fits the data.
 
     rms_error, max_error: of |E*fit - E*| / |E*|, or of E(t) likewise, over the points.
+
+    >>> data = tl.materials.RelaxationTest([0.01, 0.1, 1.0, 10.0], [8e9, 5e9, 4e9, 2.2e9])
+    >>> fit = tl.materials.fit_prony(data, poisson=0.35, terms=2)
+    >>> f"E(t) within {fit.max_error:.0%}"
+    'E(t) within 8%'
     """
 
     material: M
@@ -48,6 +53,12 @@ def fit_prony(
     measured, and a curve that falls to zero gives a fluid. Returns a MaterialFit. Raises InputError. Source:
     Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519 (the spectrum from data); Lawson & Hanson (1974), Solving
     Least Squares Problems, chapter 23 (the method).
+
+    >>> rubber = tl.materials.Prony(3e6, ((0.5, 0.1),), 0.49)
+    >>> values = [complex(rubber.complex_modulus(omega)) for omega in (1, 3, 10, 30, 100)]
+    >>> data = tl.materials.FrequencySweep([1, 3, 10, 30, 100], [e.real for e in values], [e.imag for e in values])
+    >>> [round(share, 6) for share, time in tl.materials.fit_prony(data, poisson=0.49, times=[0.1]).material.terms]
+    [0.5]
     """
     tau = _times(data, terms, times)
     rows, spring, values = _rows(data, tau)
@@ -61,6 +72,12 @@ def fit_huet_sayegh(data: Measured, *, poisson: float) -> MaterialFit[HuetSayegh
     data: of one temperature, best several decades. poisson: Poisson's ratio. Of several starts the best is kept.
     Returns a MaterialFit. Raises InputError for fewer points than parameters, ConvergenceError if no start
     converges.
+
+    >>> data = tl.materials.FrequencySweep([6.3, 63.0], [4e9, 8e9], [3e9, 2e9], temperature=15.0)
+    >>> tl.materials.fit_huet_sayegh(data, poisson=0.35)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: 6 parameters need more data, got 2 moduli from 6.3 to 63 rad/s at 15 °C
     """
     return _judged(_huet_sayegh(_nearest(data, _huet_sayegh, poisson), poisson), data)
 
@@ -69,6 +86,12 @@ def fit_2s2p1d(data: Measured, *, poisson: float) -> MaterialFit[Model2S2P1D]:
     """The 2S2P1D model nearest to a curve, by least squares of the logarithm of the modulus.
 
     As fit_huet_sayegh, whose result is one of the starts. β is known only as far as the data reach slow flow.
+
+    >>> data = tl.materials.FrequencySweep([6.3, 63.0], [4e9, 8e9], [3e9, 2e9], temperature=15.0)
+    >>> tl.materials.fit_2s2p1d(data, poisson=0.35)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: 6 parameters need more data, got 2 moduli from 6.3 to 63 rad/s at 15 °C
     """
     simple = np.append(_nearest(data, _huet_sayegh, poisson), _BETA[1] / 2)
     return _judged(_2s2p1d(_nearest(data, _2s2p1d, poisson, math.log(300.0), start=simple), poisson), data)

@@ -28,6 +28,10 @@ class HuetSayegh(Operational):
 
     Source: Huet (1963), Annales des Ponts et Chaussées 6, 373-429; Sayegh (1967), Proc. 2nd Int. Conf. Structural
     Design of Asphalt Pavements, Ann Arbor, 743-755.
+
+    >>> mix = tl.materials.HuetSayegh(30e9, 50e6, delta=2.3, k=0.22, h=0.65, tau=0.2, poisson=0.35)
+    >>> [round(abs(complex(mix.complex_modulus(6.283 * f))) / 1e9, 1) for f in (1, 10)]  # |E*|, GPa, at 1 and 10 Hz
+    [7.9, 12.4]
     """
 
     glassy_modulus: Modulus
@@ -95,6 +99,10 @@ class Model2S2P1D(Operational):
     Raises InputError.
 
     Source: Olard & Di Benedetto (2003), Road Materials and Pavement Design 4, 185-224.
+
+    >>> binder = tl.materials.Model2S2P1D(2e9, 0.0, delta=3.0, k=0.22, h=0.6, beta=300, tau=1e-4, poisson=0.35)
+    >>> [round(abs(complex(binder.complex_modulus(6.283 * f))) / 1e6, 1) for f in (1, 10)]  # |E*|, MPa, at 1, 10 Hz
+    [19.8, 66.5]
     """
 
     glassy_modulus: Modulus

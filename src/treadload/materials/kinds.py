@@ -19,7 +19,12 @@ from treadload.registry import MATERIALS
 
 @runtime_checkable
 class Viscoelastic(Protocol):
-    """A linear viscoelastic solid whose Poisson's ratio does not depend on time."""
+    """A linear viscoelastic solid whose Poisson's ratio does not depend on time.
+
+    >>> rubber = tl.materials.Prony(3e6, ((0.5, 0.1),), 0.49)
+    >>> isinstance(rubber, tl.materials.Viscoelastic), round(rubber.rubbery.modulus / rubber.glassy.modulus, 2)
+    (True, 0.5)
+    """
 
     @property
     def poisson(self) -> float:
@@ -47,7 +52,14 @@ class Surfaced(Protocol):
 
 @runtime_checkable
 class TemperatureDependent(Protocol):
-    """A material that is elastic or viscoelastic once its temperature is known."""
+    """A material that is elastic or viscoelastic once its temperature is known.
+
+    >>> mix = tl.catalogue.mixes["EB-GB3"]
+    >>> isinstance(mix, tl.materials.TemperatureDependent)
+    True
+    >>> [round(mix.at(t).modulus / 1e6) for t in (0, 15, 30)]  # MPa
+    [18300, 9000, 2700]
+    """
 
     def at(self, temperature: float, *, extrapolate: bool = False) -> Elastic | Viscoelastic:
         """The material at a temperature, °C. Raises InputError outside its data unless asked to extrapolate."""

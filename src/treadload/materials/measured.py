@@ -24,6 +24,10 @@ class FrequencySweep:
     omega: (n,), rad/s, > 0, sorted here. storage, loss: (n,), E' > 0 and E'' ≥ 0, Pa. temperature: °C, of the test
     or of reference; None if not stated.
     Raises InputError.
+
+    >>> sweep = tl.materials.FrequencySweep([6.3, 63.0], [4e9, 8e9], [3e9, 2e9], temperature=15.0)
+    >>> [round(float(abs(modulus)) / 1e9, 2) for modulus in sweep.modulus]  # |E*|, GPa
+    [5.0, 8.25]
     """
 
     omega: Array
@@ -61,6 +65,10 @@ class RelaxationTest:
     time: (n,), s, > 0, sorted here. modulus: (n,), E(t) > 0, Pa. temperature: °C, of the test or of reference; None
     if not stated.
     Raises InputError.
+
+    >>> test = tl.materials.RelaxationTest([1.0, 10.0], [4e9, 2e9], temperature=15.0)
+    >>> [round(float(t), 3) for t in test.shifted(0.01, 30.0).time]  # s: all times a hundredth at 30 °C
+    [100.0, 1000.0]
     """
 
     time: Array
@@ -91,6 +99,14 @@ def read_master_curve(path: str | PathLike[str], *, temperature: float | None = 
 
     The second row holds the units (Hz or rad/s; s; Pa, kPa, MPa, GPa). temperature: of reference, °C.
     Raises InputError for a file that cannot be read, lacks columns or holds several temperatures.
+
+    >>> _ = (folder / "mix.csv").write_text('''f,E_stor,E_loss
+    ... Hz,MPa,MPa
+    ... 1,4000,3000
+    ... 10,8000,2000''')
+    >>> curve = tl.materials.read_master_curve(folder / "mix.csv", temperature=15.0)
+    >>> round(float(abs(curve.modulus[0])) / 1e9, 2)  # |E*|, GPa, at 1 Hz
+    5.0
     """
     table = _read(path)
     if "T" in table:
@@ -106,6 +122,15 @@ def read_isotherms(path: str | PathLike[str]) -> tuple[Measured, ...]:
     Columns as for read_master_curve, T (°C or K), and Set: rows of one number are one isotherm, at the mean of its
     temperatures. Without Set rows of the same temperature, to 1 K, are one.
     Raises InputError for a file that cannot be read or lacks columns.
+
+    >>> _ = (folder / "mix.csv").write_text('''T,t,E_relax
+    ... C,s,MPa
+    ... 10,1,8000
+    ... 10,10,4000
+    ... 20,1,4000
+    ... 20,10,2000''')
+    >>> [test.temperature for test in tl.materials.read_isotherms(folder / "mix.csv")]
+    [10.0, 20.0]
     """
     table = _read(path)
     if "T" not in table:
@@ -118,7 +143,17 @@ def read_isotherms(path: str | PathLike[str]) -> tuple[Measured, ...]:
 
 
 def read_shift_factors(path: str | PathLike[str]) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """(temperatures in °C, log₁₀ aT) from a CSV file with columns T and log_aT. Raises InputError."""
+    """(temperatures in °C, log₁₀ aT) from a CSV file with columns T and log_aT. Raises InputError.
+
+    >>> _ = (folder / "shift.csv").write_text('''T,log_aT
+    ... C,-
+    ... 5,1.4
+    ... 15,0
+    ... 25,-1.2''')
+    >>> shift = tl.materials.TabulatedShift(*tl.materials.read_shift_factors(folder / "shift.csv"), reference=15)
+    >>> f"{shift.factor(20.0):.2f}"
+    '0.24'
+    """
     table = _read(path)
     if missing := {"T", "log_aT"} - set(table):
         raise InputError(f"{path} lacks the column {missing.pop()}; it needs T and log_aT")

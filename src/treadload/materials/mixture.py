@@ -31,6 +31,10 @@ class Mix:
     The first rule reproduces the printed E(15 °C, 10 Hz) of every French mix; the second misses the printed ratios
     at 3 Hz, when these are left out, by 2 % on average, one linear in log f by 4 %.
     Raises InputError.
+
+    >>> mix = tl.catalogue.mixes["EB-GB3"]
+    >>> [round(mix.with_frequency(f).at(15).modulus / 1e6) for f in (3, 10)]  # MPa at 15 °C, at 3 and 10 Hz
+    [7470, 9000]
     """
 
     name: str
@@ -137,6 +141,10 @@ class HydraulicMix(Elastic):
     slope: b of the fatigue line. scatter: SN. calibration: k_c. joints: k_d, for discontinuities; None where it
     depends on the structure. thickness_scatter: Sh, m; None where it does. source: where the numbers are from.
     caveats: what is not certain about them, a sentence each. Raises InputError.
+
+    >>> mix = tl.catalogue.mixes["GC-T3"]
+    >>> f"{mix.sigma_6 * (1e7 / 1e6) ** mix.slope / 1e6:.2f} MPa"  # stress of ten million cycles
+    '0.64 MPa'
     """
 
     name: str
@@ -171,6 +179,10 @@ class Unbound(Elastic):
     traffic, plain strain. constant_light: A under light traffic. constant_inverted: A of the granular layer of an
     inverted structure; None for a platform. source: where the numbers are from. caveats: what is not certain about
     them, a sentence each. Raises InputError.
+
+    >>> soil = tl.catalogue.mixes["PF3"]
+    >>> f"{soil.constant * 1e6**soil.slope * 1e6:.0f} microstrain"  # vertical, allowed by a million standard axles
+    '559 microstrain'
     """
 
     name: str

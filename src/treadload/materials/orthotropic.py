@@ -33,6 +33,10 @@ class Orthotropic(Anisotropic):
     (travel), y (right) and z (down), see `rotated`; all zero: axis 1 along travel, 2 to the right, 3 down.
 
     Raises InputError with the smallest eigenvalue for numbers that no material has.
+
+    >>> mix = tl.materials.Orthotropic((5e9, 4e9, 3e9), (1.8e9, 1.6e9, 1.4e9), (0.3, 0.3, 0.3), pitch=0.5)
+    >>> round(mix.upright[0] / 1e9, 2)  # GPa, vertical, of axes leaning forwards
+    3.36
     """
 
     moduli: tuple[Modulus, Modulus, Modulus]

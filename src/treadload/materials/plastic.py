@@ -25,7 +25,12 @@ from treadload.units import Angle, Celsius, Frequency, Modulus, Number, Pressure
 
 @runtime_checkable
 class PlasticLaw(Protocol):
-    """A law of yielding that is followed step by step."""
+    """A law of yielding that is followed step by step.
+
+    >>> law = tl.materials.VonMises(0.4e6)
+    >>> isinstance(law, tl.materials.PlasticLaw), round(law.strength / 1e6, 2)  # MPa
+    (True, 0.4)
+    """
 
     @property
     def strength(self) -> float:
@@ -44,6 +49,10 @@ class Swift:
     10^(6·0.095) and offset 4e-6. Raises InputError.
 
     Source: Swift (1952), J. Mech. Phys. Solids 1, 1-18.
+
+    >>> steel = tl.materials.VonMises(tl.materials.Swift(strength=1280e6 * 10**0.57, offset=4e-6, exponent=0.095))
+    >>> round(steel.strength / 1e6)  # MPa, at first yield
+    1460
     """
 
     strength: Pressure
@@ -130,6 +139,12 @@ class DruckerPrager:
     Raises InputError.
 
     Source: Drucker & Prager (1952), Q. Appl. Math. 10, 157-165.
+
+    >>> tl.materials.DruckerPrager(cohesion=50e3, friction_angle=0.5, dilation_angle=0.6)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: dilation_angle must lie in [0, 0.5] rad, up to the friction angle, got 0.6;
+    beyond it flow would make work of nothing
     """
 
     cohesion: Pressure
@@ -165,6 +180,10 @@ class MohrCoulomb:
     the cone is stronger than the pyramid. Raises InputError.
 
     Source: de Souza Neto, Perić & Owen (2008), Computational Methods for Plasticity, section 6.4.4.
+
+    >>> soil = tl.materials.MohrCoulomb(cohesion=20e3, friction_angle=0.61)  # 35 degrees
+    >>> round(soil.strength / 1e3, 1)  # kPa, von Mises stress at yield under no mean stress
+    40.5
     """
 
     cohesion: Pressure
@@ -199,6 +218,11 @@ class Perzyna:
     Raises InputError.
 
     Source: Perzyna (1966), Adv. Appl. Mech. 9, 243-377.
+
+    >>> tl.materials.Perzyna(tl.materials.VonMises(0.4e6), fluidity=1e-3, exponent=0.5)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: exponent of Perzyna's law must lie in [1, 50], got 0.5; 1 is linear
     """
 
     law: PlasticLaw
@@ -236,6 +260,10 @@ class PassesPowerLaw:
     Raises InputError.
 
     Source of the form: Monismith, Ogawa & Freeme (1975), Transp. Res. Rec. 537, 1-17.
+
+    >>> law = tl.materials.PassesPowerLaw.asphalt(40.0)  # °C
+    >>> f"100 times the passes: {100**law.exponent:.1f} times the plastic strain"
+    '100 times the passes: 9.1 times the plastic strain'
     """
 
     factor: Number
@@ -269,6 +297,10 @@ class ElastoPlastic:
 
     elastic: its elastic part, which contact and response take. law: how it yields, which `roll_passes` follows:
     VonMises, MohrCoulomb, DruckerPrager, Perzyna or PassesPowerLaw. Raises InputError.
+
+    >>> soil = tl.materials.ElastoPlastic(tl.Elastic(60e6, 0.35), tl.materials.VonMises(120e3))
+    >>> f"yields at {soil.yield_strain:.2%} of strain"
+    'yields at 0.20% of strain'
     """
 
     elastic: Elastic

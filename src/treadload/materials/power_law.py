@@ -31,6 +31,10 @@ class PowerLawCreep(Operational):
 
     Source: the modified power law of asphalt, in the form of Levenberg's program ELLVA1; its complex modulus is
     that of the exact transform, no approximate interconversion.
+
+    >>> mix = tl.materials.PowerLawCreep(0.05e-9, 5e-9, tau=10.0, exponent=0.4, poisson=0.35)
+    >>> [round(1e-6 / float(mix.creep_compliance(t))) for t in (0.01, 1.0, 100.0)]  # creep stiffness, MPa
+    [2909, 685, 279]
     """
 
     instantaneous_compliance: Compliance

@@ -27,6 +27,10 @@ class PublishedMaterial:
     name: in the catalogue. material: Viscoelastic, or TemperatureDependent where the paper states how times shift.
     temperature: at which it holds, °C; None where it depends on temperature, or is not stated. source: the paper.
     caveats: what is not certain about it, a sentence each.
+
+    >>> mix = tl.catalogue.materials["ViscoRoute"].material
+    >>> [round(abs(complex(mix.at(t).complex_modulus(62.8))) / 1e9, 1) for t in (0, 15, 30)]  # |E*|, GPa, at 10 Hz
+    [23.7, 11.4, 2.8]
     """
 
     name: str

@@ -30,6 +30,11 @@ def as_prony(material: Viscoelastic, lowest: float, highest: float, *, tolerance
     the two limits. A Prony series is returned as it is, and so is that of a material which has one, as `prony`.
     Raises InputError for an empty range, and if the tolerance is not reached.
     Method: non-negative least squares, after Baumgaertel & Winter (1989), Rheol. Acta 28, 511-519.
+
+    >>> mix = tl.materials.HuetSayegh(30e9, 50e6, delta=2.3, k=0.22, h=0.65, tau=0.2, poisson=0.35)
+    >>> series = tl.materials.as_prony(mix, 1.0, 100.0, tolerance=1e-3)
+    >>> abs(complex(series.complex_modulus(62.8)) / complex(mix.complex_modulus(62.8)) - 1) < 1e-3
+    True
     """
     if not 0 < lowest < highest < math.inf:
         raise InputError(f"a range of frequencies needs 0 < lowest < highest, rad/s, got {lowest:g} and {highest:g}")

@@ -26,6 +26,12 @@ class MasterCurve:
     data: all points at the reference temperature. temperatures: (n,), °C, coldest first. log_factors: (n,), log₁₀ aT,
     0 at the reference. reference: °C. isotherms: as measured, coldest first. mismatch: rms of ln |E*| of neighbours
     where they overlap once shifted: near the relative scatter of the data if one shift serves.
+
+    >>> cold = tl.materials.RelaxationTest([1.0, 10.0, 100.0], [8e9, 4e9, 2e9], temperature=10.0)
+    >>> warm = tl.materials.RelaxationTest([1.0, 10.0, 100.0], [4e9, 2e9, 1e9], temperature=20.0)
+    >>> curve = tl.materials.master_curve([cold, warm], reference=10.0)
+    >>> round(float(curve.data.time.max()))  # s: the warm test stands for times ten times as long
+    1000
     """
 
     data: Measured
@@ -59,6 +65,11 @@ def master_curve(isotherms: Sequence[Measured], reference: float) -> MasterCurve
     Returns a MasterCurve. Raises InputError if neighbours do not overlap.
     Method: Gergesova et al. (2011), Rheol. Acta 50, 1-16; ISO 18437-6 (closed-form shifting: the shift is the area
     between two curves over the height they share).
+
+    >>> cold = tl.materials.RelaxationTest([1.0, 10.0, 100.0], [8e9, 4e9, 2e9], temperature=10.0)
+    >>> warm = tl.materials.RelaxationTest([1.0, 10.0, 100.0], [4e9, 2e9, 1e9], temperature=20.0)
+    >>> [round(shift, 3) for shift in tl.materials.master_curve([cold, warm], reference=10.0).log_factors]
+    [0.0, -1.0]
     """
     ordered = _checked(isotherms)
     temperatures = np.array([float(data.temperature or 0.0) for data in ordered])

@@ -117,6 +117,10 @@ class AtStress(Elastic):
 
     modulus: Pa. poisson: Poisson's ratio. bulk, deviator: stress of the law, Pa, compression positive. law: of the
     modulus.
+
+    >>> base = tl.materials.StressDependent(tl.materials.KTheta(k1=90e6, k2=0.5), poisson=0.35)
+    >>> [round(base.under(bulk, 50e3).modulus / 1e6) for bulk in (100e3, 400e3)]  # MPa under 100 and 400 kPa
+    [89, 179]
     """
 
     bulk: float = field(default=np.nan, compare=False, kw_only=True)
@@ -135,6 +139,10 @@ class UnboundByStress(StressDependent):
 
     name: in the catalogue. source: where the numbers are from. caveats: what is not certain about them, a
     sentence each.
+
+    >>> base = tl.catalogue.mixes["FDOT limerock"]
+    >>> [round(base.under(bulk, 75e3).modulus / 1e6) for bulk in (150e3, 300e3)]  # MPa: stiffer under a larger load
+    [134, 199]
     """
 
     name: str

@@ -28,7 +28,12 @@ _MOST_POISSON = 0.49
 
 @runtime_checkable
 class ModulusLaw(Protocol):
-    """How stiff a material is under a state of stress."""
+    """How stiff a material is under a state of stress.
+
+    >>> law = tl.materials.KTheta(k1=90e6, k2=0.5)
+    >>> isinstance(law, tl.materials.ModulusLaw), round(float(law.modulus(150e3, 75e3)) / 1e6)  # MPa
+    (True, 110)
+    """
 
     def modulus(self, bulk: ArrayLike, deviator: ArrayLike) -> Array:
         """Young's modulus, Pa, under bulk stress and deviator stress, Pa, compression positive, > 0."""
@@ -148,6 +153,10 @@ class Boyce:
     bulk_modulus: Kₐ, Pa. shear_modulus: Gₐ, Pa. n: in (0, 1]; 1 is linear. reference: pₐ, Pa. It has its own
     Poisson's ratio, taken as 0.49 at most, where shear makes the material dilate. Raises InputError.
     Source: Boyce (1980), International Symposium on Soils under Cyclic and Transient Loading, Swansea, 285-294.
+
+    >>> law = tl.materials.Boyce(bulk_modulus=60e6, shear_modulus=70e6, n=0.3)
+    >>> [round(float(law.modulus(bulk, 50e3)) / 1e6) for bulk in (100e3, 400e3)]  # MPa: stiffer under pressure
+    [74, 184]
     """
 
     bulk_modulus: Modulus

@@ -165,6 +165,10 @@ class QuadraticShift:
     a1: A₁, 1/°C. a2: A₂, 1/°C². reference: Tᵣ, °C; at 0 °C τ = exp(A₀). It holds where times fall with rising
     temperature, that is where a₁ + 2 a₂ T < 0.
     Raises InputError.
+
+    >>> shift = tl.materials.QuadraticShift(a1=-0.3996, a2=0.00152)
+    >>> f"{shift.factor(15.0) / shift.factor(25.0):.0f} times slower at 15 °C than at 25 °C"
+    '30 times slower at 15 °C than at 25 °C'
     """
 
     a1: PerDegree
@@ -216,6 +220,10 @@ class TabulatedShift:
     temperatures: (n,), °C, n ≥ 2, increasing or decreasing. log_factors: (n,), log₁₀ aT, falling with rising
     temperature. reference: °C, inside the table; factors are relative to it. Raises InputError.
     Source: Fritsch & Carlson (1980), SIAM J. Numer. Anal. 17, 238-246 (the interpolant).
+
+    >>> shift = tl.materials.TabulatedShift((5, 15, 25), (1.4, 0, -1.2), reference=15)
+    >>> f"{shift.factor(20.0):.2f}"
+    '0.24'
     """
 
     temperatures: tuple[Celsius, ...]
@@ -278,6 +286,11 @@ class Thermorheological:
     Viscoelastic with `slowed`. shift: WLF, Arrhenius, QuadraticShift or TabulatedShift.
     tested: (lowest, highest) temperature of the tests behind them, °C; None if unknown, then all are allowed.
     Raises InputError.
+
+    >>> series = tl.materials.Prony(15e9, ((0.5, 0.01), (0.4, 1.0)), 0.35)
+    >>> mix = tl.materials.Thermorheological(series, tl.materials.Arrhenius(200e3, reference=15.0))
+    >>> [round(abs(complex(mix.at(t).complex_modulus(62.8))) / 1e9, 1) for t in (0, 15, 30)]  # |E*|, GPa, at 10 Hz
+    [15.0, 10.2, 5.5]
     """
 
     material: Shiftable

@@ -67,7 +67,12 @@ def is_bituminous(material: Material | TemperatureDependent | StressDependent) -
 
 
 def lift_below(road: Pavement, layer: int) -> bool:
-    """True where the layer below is of the same bituminous material and is bonded to it: two lifts of one course."""
+    """True where the layer below is of the same bituminous material and is bonded to it: two lifts of one course.
+
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 8 GB3 / 8 GB3 / PF3")
+    >>> [tl.pavement.lift_below(road, layer) for layer in (0, 1)]
+    [False, True]
+    """
     number = _number(road, layer)
     if number + 1 >= len(road.layers):
         return False

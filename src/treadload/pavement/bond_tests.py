@@ -35,6 +35,11 @@ class ShearTest:
     displacement: of one half against the other, m, rising. force: N. area: of the interface, m². temperature: °C.
     rate: of the displacement, m/s. height: of asphalt between the clamps that shears, too, m, and shear_modulus: its
     own, Pa; 0 and infinity leave it out, and the stiffness is then that of both. Raises InputError.
+
+    >>> rows = range(21)
+    >>> test = tl.pavement.ShearTest([5e-5 * n for n in rows], [1e3 * n for n in rows], area=0.0177, temperature=20.0)
+    >>> f"strength {test.strength / 1e6:.2f} MPa, stiffness {test.stiffness / 1e9:.2f} MPa/mm"
+    'strength 1.13 MPa, stiffness 1.13 MPa/mm'
     """
 
     displacement: Array
@@ -141,6 +146,10 @@ class TestedBond(BondLaw):
 
     temperatures: °C, rising, two or more. stiffnesses: k_s at each, Pa/m, > 0. Beyond the tests it is refused.
     Raises InputError.
+
+    >>> bond = tl.pavement.TestedBond((10.0, 30.0), (20e9, 2e9))
+    >>> f"{bond.at(20).stiffness:.2g} Pa/m"
+    '6.3e+09 Pa/m'
     """
 
     # Not a class of tests.

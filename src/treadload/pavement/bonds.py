@@ -18,6 +18,10 @@ class BondLaw:
 
     stiffness: shear over relative sliding, Pa/m, >= 0, infinite when bonded; a field, or a property that raises
     InputError where it is not known yet.
+
+    >>> bond = tl.pavement.TestedBond((10.0, 30.0), (20e9, 2e9))
+    >>> isinstance(bond, tl.pavement.BondLaw), bond.depends_on_temperature
+    (True, True)
     """
 
     stiffness: float
@@ -53,6 +57,10 @@ class Bond(BondLaw):
     stiffness: Pa/m, >= 0; infinite when bonded, 0 without friction. It matters between some 1e9 and 1e12 Pa/m.
     Raises InputError for a negative stiffness.
     Source: Goodman, Taylor and Brekke (1968), J. Soil Mech. Found. Div. ASCE 94, 637-659.
+
+    >>> bond = tl.pavement.Bond(1e10)
+    >>> f"{0.2e6 / bond.stiffness * 1e6:.0f} µm of sliding under a shear of 0.2 MPa"
+    '20 µm of sliding under a shear of 0.2 MPa'
     """
 
     stiffness: Stiffness
@@ -108,6 +116,12 @@ class Parted(BondLaw):
     everywhere, N/m³, > 0; 24 kN/m³ is asphalt. The load comes once, from rest: a wheel that rolls by leaves the face
     slid behind it, which this does not follow. Raises InputError.
     Source: Coulomb's law on a unilateral face, as in Kikuchi and Oden (1988), Contact Problems in Elasticity.
+
+    >>> tl.pavement.Parted(friction=0.7).stiffness
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: an interface that is parted with friction 0.7 has no stiffness: it holds or
+    slides, place by place; take Pavement.sticking, or Bond(stiffness=...) for a spring
     """
 
     friction: Number

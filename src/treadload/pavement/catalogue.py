@@ -36,6 +36,10 @@ class Structure:
 
     name: in the catalogue. title: in words. courses: from the surface down. source: where it is from.
     caveats: what is not certain about it, a sentence each.
+
+    >>> road = tl.catalogue.structures["6 BBSG3 / 15 GB3 / PF3"]
+    >>> [layer.name for layer in road.layers()]
+    ['EB-BBSG3', 'EB-GB3', 'PF3']
     """
 
     name: str

@@ -38,6 +38,10 @@ class Moisture:
     water: mass of water over that of the dry material, in (0, 1). dry_density: kg/m³. kind: "granular" or "fine", of
     the conductivity by Kersten. Raises InputError.
     Source: Kersten (1949), Thermal Properties of Soils, University of Minnesota, bulletin 28.
+
+    >>> soil = tl.pavement.Moisture(water=0.15, dry_density=1750.0, kind="fine")
+    >>> f"{soil.latent / 1e6:.0f} MJ/m³ to freeze it"
+    '88 MJ/m³ to freeze it'
     """
 
     water: Share = 0.10
@@ -86,6 +90,10 @@ class Frost:
     these. frozen: modulus of a frozen layer over that of the thawed one. thawed: modulus just after thawing over that
     of the recovered one, in (0, 1]. recovery: days from thawing until the modulus is back, linear between. Defaults
     of the last three after NCHRP 1-37A, from memory, to verify. Raises InputError.
+
+    >>> road = tl.Pavement.from_catalogue("4 BBM / 15 GNT1 / PF2", temperature=15)
+    >>> [water and water.kind for water in tl.pavement.Frost().moisture(road)]  # asphalt, base, subgrade
+    [None, 'granular', 'fine']
     """
 
     soil: Moisture = Moisture(0.15, 1750.0, "fine")
@@ -207,6 +215,9 @@ def frost_index(daily: Array) -> float:
     """Frost index of daily mean temperatures, °C, over a winter: by how much their sum falls at most, °C days.
 
     daily: of a year, whose end is joined to its start.
+
+    >>> tl.pavement.frost_index([5.0] * 300 + [-4.0] * 30 + [6.0] * 35)  # °C days: thirty days at -4 °C
+    120.0
     """
     total = np.concatenate([[0.0], np.cumsum(np.tile(daily, 2))])
     # Of a winter, no longer than a year.

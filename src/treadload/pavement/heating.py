@@ -41,6 +41,11 @@ class Heat:
     Defaults: those of the MEPDG for asphalt, 0.85, 0.93, 0.67 BTU/(h ft °F) and 0.23 BTU/(lb °F) at 2300 kg/m³; usual
     ones for the rest; from memory, to verify. ProductOneME (commit c89fe2b) has an emissivity of 0.93, too, but also
     an absorptivity of 0.93, and the guide's mean conductivity, 1.08 W/(m K). Raises InputError.
+
+    >>> road = tl.Pavement.from_catalogue("4 BBM / 15 GNT1 / PF2", temperature=15)
+    >>> conductivity, capacity = tl.pavement.Heat(asphalt_conductivity=1.5).of(road)
+    >>> [float(value) for value in conductivity]  # W/(m K), from the surface down
+    [1.5, 1.5, 1.5]
     """
 
     absorptivity: Share = 0.85
@@ -82,6 +87,14 @@ class RoadTemperatures:
     start: of the first row, local time. step: hours. depths: (nz,), m, the first at the surface. temperatures:
     (nt, nz), °C. air: (nt,), °C. method: how they were found, in words. assumed: sentences on what the weather
     lacked.
+
+    >>> from datetime import datetime
+    >>> surface = [15, 15, 20, 35, 50, 45, 30, 20]  # °C, every three hours
+    >>> day = tl.pavement.Weather(datetime(2023, 7, 1), 3.0, [20] * 8, surface_temperature=surface)
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
+    >>> times = tl.pavement.road_temperatures(road, day, [0.1])
+    >>> float(times.hour_of_day[times.temperatures[:, 1].argmax()])  # hottest 100 mm deep
+    15.0
     """
 
     start: datetime
@@ -116,6 +129,13 @@ def road_temperatures(
     matter. Raises InputError and ConvergenceError.
     Sources: h of Vehrencamp (1953) as in NCHRP 1-37A; where the sky is not measured its emissivity 0.77 - 0.28·
     10^(-0.074 p), p the vapour's pressure in mmHg (Geiger); both as coded in ProductOneME (commit c89fe2b).
+
+    >>> from datetime import datetime
+    >>> surface = [15, 15, 20, 35, 50, 45, 30, 20]  # °C, every three hours
+    >>> day = tl.pavement.Weather(datetime(2023, 7, 1), 3.0, [20] * 8, surface_temperature=surface)
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
+    >>> tl.pavement.road_temperatures(road, day, [0.1]).temperatures.max(axis=0).round().tolist()  # surface, 100 mm
+    [50.0, 37.0]
     """
     exchange = Heat() if heat is None else heat
     k, c = exchange.of(road)
@@ -226,6 +246,9 @@ def bells(
     test vehicle; else BELLS3, for routine measurements. Shapes broadcast. Raises InputError.
     Source: Lukanen, Stubstad & Briggs, FHWA-RD-98-085, for BELLS2; those of BELLS3 as a public
     script for deflections codes them, the source's page was not had to its end.
+
+    >>> round(float(tl.pavement.bells(surface=30.0, depth=0.1, hour=10.0, mean_air_before=20.0)), 1)  # °C at 100 mm
+    24.4
     """
     positive("depth", depth, "metres", "BELLS holds inside the asphalt")
     ir, air, at = (np.asarray(series, dtype=float) for series in (surface, mean_air_before, hour))

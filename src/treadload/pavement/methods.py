@@ -23,7 +23,12 @@ _LAWS = {"k-theta": KTheta, "uzan": Uzan, "universal": Universal, "boyce": Boyce
 
 
 def methods_of(road: Pavement) -> tuple[str, ...]:
-    """Keys of `treadload.citations.CITATIONS` for the response of a road, by its materials and bonds."""
+    """Keys of `treadload.citations.CITATIONS` for the response of a road, by its materials and bonds.
+
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
+    >>> tl.pavement.methods_of(road)
+    ('layers',)
+    """
     if isinstance(road.layers[0].material, Orthotropic):
         return ("grain below",)
     upright = any(isinstance(layer.material, TransverselyIsotropic) for layer in road.layers)

@@ -12,6 +12,9 @@ class Relief(Protocol):
     """How far a road's surface rises above its plane: a frozen description, taken by `solve_contact(relief=...)`.
 
     It may also have `finest_wave`, m: the shortest wave in it, which cells that are too coarse are compared with.
+
+    >>> isinstance(tl.pavement.RoadStep(0.01), tl.pavement.Relief)
+    True
     """
 
     def height(self, x: Array, y: Array) -> Array:

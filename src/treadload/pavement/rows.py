@@ -27,6 +27,11 @@ class LayerRow:
     both are those under vertical stress. bond: to the layer below, in words; empty below the last. temperature: °C,
     None where it is not known. material: in words. anisotropic: True if the words
     alone state all of its moduli, also those over stress, whose `modulus` is that under a usual truck.
+
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
+    >>> base = tl.pavement.layer_rows(road)[1]
+    >>> f"{base.name}: {base.thickness * 1e3:.0f} mm of {base.modulus / 1e6:.0f} MPa, {base.bond}"
+    'EB-GB3: 150 mm of 9000 MPa, bonded'
     """
 
     name: str
@@ -45,6 +50,10 @@ def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tup
 
     road: at its temperature. temperatures: °C, one per layer, those that chose its materials.
     Raises InputError for a layer that still needs a temperature.
+
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=15)
+    >>> [(row.name, round(row.modulus / 1e6)) for row in tl.pavement.layer_rows(road)]  # MPa
+    [('EB-BBSG3', 7000), ('EB-GB3', 9000), ('PF3', 120)]
     """
     known_temperatures = [*temperatures, *[None] * (len(road.layers) - len(temperatures))]
     return tuple(
@@ -54,7 +63,11 @@ def layer_rows(road: Pavement, temperatures: Sequence[float | None] = ()) -> tup
 
 
 def road_in_words(road: Pavement) -> str:
-    """The layers of a road in one line."""
+    """The layers of a road in one line.
+
+    >>> tl.pavement.road_in_words(tl.Pavement.half_space(tl.Elastic(60e6, 0.35)))
+    'layer (half-space): elastic, E = 60 MPa, ν = 0.35'
+    """
     layers = []
     for layer in road.layers:
         depth = "half-space" if layer.thickness is None else f"{layer.thickness * 1e3:g} mm"

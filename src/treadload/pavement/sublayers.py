@@ -29,6 +29,12 @@ def divided(
     road: whose materials wait for their temperature. thickest: of a part, m, then all of a course are equal; left
     out, 20 mm at the surface and half its depth further down. ageing: of the mixes, each part at its middle.
     Returns the road and, for each of its layers, the number of the layer that it was. Raises InputError.
+
+    >>> parts, courses = tl.pavement.divided(tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3"), thickest=0.05)
+    >>> [round(layer.thickness * 1e3) for layer in parts.layers[:-1]]  # mm
+    [30, 30, 50, 50, 50]
+    >>> courses
+    (0, 0, 1, 1, 1, 2)
     """
     if thickest is not None and not 0.002 <= thickest <= 10:
         raise InputError(f"sublayers must be 2 mm thick at least, got {thickest * 1e3:g} mm; 20 mm is usual")

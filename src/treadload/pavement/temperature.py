@@ -18,6 +18,11 @@ class TemperatureProfile:
     depths: m, increasing, from the surface down, at least two. temperatures: °C, one per depth.
     A layer takes the temperature at its middle.
     Raises InputError.
+
+    >>> hot = tl.pavement.TemperatureProfile([0.0, 0.2], [38.0, 24.0])
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3", temperature=hot)
+    >>> [round(layer.material.modulus / 1e6) for layer in road.layers]  # MPa
+    [1328, 3196, 120]
     """
 
     depths: tuple[float, ...]

@@ -42,6 +42,13 @@ class Weather:
     short-wave on the horizontal, W/m²; None where the temperature of the surface is known. wind: (n,), m/s. humidity:
     (n,), relative, %. sky: (n,), long-wave from the sky, W/m². surface_temperature: (n,), °C, measured. The last four
     may be None. source: file. Raises InputError for too few rows, other lengths, and values that no weather has.
+
+    >>> from datetime import datetime
+    >>> tl.pavement.Weather(datetime(2023, 7, 1), 1.0, [95.0] * 24, radiation=[0.0] * 24)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: the climate has a hole: air_temperature is 95 °C at 2023-07-01 00:00; it must
+    lie in [-60, 60] °C at every hour
     """
 
     start: datetime
@@ -148,6 +155,19 @@ def read_weather(path: str | os.PathLike[str]) -> Weather:
     humidity (%), sky (W/m², long-wave) and surface_temperature (°C); of the last six one of radiation and
     surface_temperature is needed. An EPW file holds a typical year of hours: each stands for the middle of its hour.
     Raises InputError that names the first hour that is missing.
+
+    >>> _ = (folder / "day.csv").write_text('''time,air_temperature,radiation
+    ... 2023-07-01 00:00,16,0
+    ... 2023-07-01 03:00,14,0
+    ... 2023-07-01 06:00,15,120
+    ... 2023-07-01 09:00,20,520
+    ... 2023-07-01 12:00,25,850
+    ... 2023-07-01 15:00,27,700
+    ... 2023-07-01 18:00,24,260
+    ... 2023-07-01 21:00,19,0''')
+    >>> weather = tl.pavement.read_weather(folder / "day.csv")
+    >>> f"{weather.air_temperature.mean():.0f} °C, every {weather.step:.0f} hours"
+    '20 °C, every 3 hours'
     """
     file = Path(path)
     return _read_epw(file) if file.suffix.lower() == ".epw" else _read_table(file)

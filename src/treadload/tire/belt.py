@@ -30,6 +30,10 @@ class LateralBelt:
     stiffness: of its lateral foundation, N/m per m of length, > 0. length: over which a deflection fades, m, > 0.
     Under a lateral force the tire shifts by about force / (2 stiffness (length + half the contact length)).
     Source: Pacejka (2012), Tire and Vehicle Dynamics, chapter 5 (stretched string).
+
+    >>> belt = tl.tire.LateralBelt(stiffness=1.5e6, length=0.3)
+    >>> f"{10e3 / (2 * belt.stiffness * (belt.length + 0.1)) * 1e3:.1f} mm"  # under 10 kN, contact 200 mm long
+    '8.3 mm'
     """
 
     stiffness: Pressure
@@ -205,6 +209,10 @@ class InflatedBelt:
 
     sheet: tensions, bending and foundation. rolling_radius, crown_radius: of the unloaded tread, along and across, m.
     inflation_pressure: Pa. ribs: of the tread; empty for a layer.
+
+    >>> belt = tl.tire.Belt.from_library("315/80R22.5").inflated(820e3, 0.5, 1.0)
+    >>> f"{belt.sheet.tension_x / 1e3:.0f} kN/m along, {belt.sheet.tension_y / 1e3:.0f} kN/m across"
+    '370 kN/m along, 80 kN/m across'
     """
 
     belt: Belt

@@ -66,6 +66,9 @@ class LateralGrooves:
     m. depth, wall_angle, edge_radius: as in Groove. angle: from the axle towards travel on the right-hand side, rad.
     y_range: (from, to) in m, for lugs on a part of the width; None for all of it. offset: circumferential place of
     one of them at y = 0, m. Raises InputError when the walls or the rounding do not fit.
+
+    >>> tl.tire.LateralGrooves(pitch=0.030, width=0.006, depth=0.012).worn(0.004).depth
+    0.008
     """
 
     pitch: Length

@@ -22,6 +22,10 @@ class TireMesh:
 
     name: in the catalogue. path: of the file. title: in words. source: where it is from. caveats: what is not certain
     about it, a sentence each. ribs: that its circumferential grooves leave; 0 for none.
+
+    >>> mesh = tl.catalogue.tires["335/65R22.5"]
+    >>> f"{mesh.ribs} ribs, from a file {mesh.path.suffix}"
+    '4 ribs, from a file .obj'
     """
 
     name: str

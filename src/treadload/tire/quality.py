@@ -18,6 +18,10 @@ class GrooveMeasure:
     centre: distance to the right of the middle of the tread, m. width: at half its depth, m.
     depth: floor below the mean of the ribs beside it, as a gauge that bridges the groove measures it, m. floor: floor
     below the crown, m. lower_wall: height of the lower of its two walls, m; NaN in files of earlier versions.
+
+    >>> groove = tl.tire.GrooveMeasure(centre=0.04, width=0.010, depth=0.0123, floor=0.0125)
+    >>> f"{(groove.depth - 1.6e-3) * 1e3:.1f} mm above the legal limit of 1.6 mm"
+    '10.7 mm above the legal limit of 1.6 mm'
     """
 
     centre: float

@@ -35,7 +35,12 @@ FLATTEST = 5.0  # a map that bends less is not of a wheel, m
 
 @runtime_checkable
 class Surface(Protocol):
-    """A tread surface that gives its gap to the tangent plane at first contact."""
+    """A tread surface that gives its gap to the tangent plane at first contact.
+
+    >>> tread = tl.tire.ProfileSurface(tl.tire.TreadProfile(rolling_radius=0.5, crown_radius=1.0, width=0.2))
+    >>> isinstance(tread, tl.tire.Surface), round(tread.extent[1], 2)  # m, across
+    (True, 0.22)
+    """
 
     @property
     def extent(self) -> tuple[float, float]:
@@ -90,6 +95,11 @@ class HeightMapSurface:
     gap: (ny, nx), m; NaN means no material there; its minimum is shifted to 0.
     grid: cells of the map. source: the file it was read from and how it was understood, for people.
     Raises InputError for infinite values or a shape that is not the grid's, GeometryError for a map of NaN only.
+
+    >>> grid = tl.response.Grid.centred(0.04, 0.04, 0.02)
+    >>> tread = tl.tire.HeightMapSurface([[0.020, 0.032], [0.020, 0.032]], grid)
+    >>> (tread.height_map(grid) * 1e3).round().tolist()  # mm above the first contact
+    [[0.0, 12.0], [0.0, 12.0]]
     """
 
     gap: Array

@@ -248,7 +248,13 @@ class TreadProfile:
 
 @dataclass(frozen=True)
 class ProfileSurface:
-    """The surface of a parametric tread, sampled at cell centres."""
+    """The surface of a parametric tread, sampled at cell centres.
+
+    >>> tread = tl.tire.ProfileSurface(tl.tire.TreadProfile(rolling_radius=0.5, crown_radius=1.0, width=0.2))
+    >>> gap = tread.height_map(tl.response.Grid.centred(0.2, 0.2, 0.02))
+    >>> f"gap of {gap[5, -1] * 1e3:.1f} mm 90 mm ahead of the axle"
+    'gap of 8.2 mm 90 mm ahead of the axle'
+    """
 
     profile: TreadProfile
 

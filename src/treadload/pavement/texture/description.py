@@ -38,6 +38,10 @@ class Texture:
     left out, two points. source: where it is from. treated: what was done to it, sentence by sentence.
     It is a `Relief`: its middle stands at the origin of a contact. Raises InputError for another shape, infinite
     heights, no height at all, and more than 50 mm between the highest and the lowest.
+
+    >>> ridges = tl.pavement.Texture([[0.0, 1e-3, 0.0, -1e-3] * 10], dx=2e-3, dy=2e-3, periodic=True)
+    >>> round(ridges.rms_height * 1e3, 2)  # mm
+    0.71
     """
 
     heights: Array
