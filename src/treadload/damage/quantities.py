@@ -50,6 +50,11 @@ class Extension(Quantity):
 
     strain: "in-plane" reads the horizontal plane, whose cracks are vertical, "principal" space. The principal strains
     that a response brings are taken as they are. Raises InputError.
+
+    >>> tl.damage.Extension("space")
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: strain must be "principal" or "in-plane", got 'space'
     """
 
     strain: Reading = "in-plane"
@@ -160,7 +165,11 @@ class VerticalCompression(Quantity):
 @QUANTITIES.register("subgrade_compression")
 @dataclass(frozen=True)
 class SubgradeCompression(VerticalCompression):
-    """Vertical strain on top of the soil, compression positive."""
+    """Vertical strain on top of the soil, compression positive.
+
+    >>> tl.damage.SubgradeCompression().in_words(4.2e-4)
+    '420 microstrain'
+    """
 
     name = "subgrade_compression"
     words = "vertical strain on the subgrade"

@@ -72,6 +72,12 @@ class EnergyDemand(HorizontalTension):
     """Creep energy that a mix must be able to dissipate over what it can, 1/ER; at 1 and more it cracks.
 
     mix: with the data of the mix, see `EnergyRatio`. A crack opens across the largest horizontal tension.
+
+    >>> mix = tl.damage.EnergyRatio(5e-11, 0.45, strength=2.0e6, fracture_energy=3000.0, resilient_modulus=9e9)
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.3], y=[0.0])
+    >>> [f"{value:.2f}" for value in tl.damage.EnergyDemand(mix).field(response.dataset).values.ravel()]
+    ['0.42', '0.15']
     """
 
     mix: EnergyRatio

@@ -84,6 +84,13 @@ def deflection_bowl(
     turns a lag into a time. labels: a name each. y: of the line, m, the nearest there is. load: x of the load's
     centre, m; if left out the centre of each response's stress at the surface. Returns the figure.
     Raises InputError for missing variables, an unknown load or labels that do not match.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> x = [0.1 * k for k in range(-9, 10)]
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.0], x=x, y=[0.0])
+    >>> figure = tl.plots.deflection_bowl([response], ["plate"])
+    >>> f"{figure.axes[0].lines[0].get_ydata().max():.2f} mm"
+    '0.71 mm'
     """
     if not responses or len(responses) != len(labels):
         raise InputError(f"give a label for each response: got {len(labels)} labels for {len(responses)} responses")

@@ -95,6 +95,11 @@ def master_curve(
     curves, labels, frequencies: as for black_diagram; all at one temperature. A MasterCurve shows its isotherms in
     the colour of their temperature, and in grey where they were measured.
     Returns the figure. Raises InputError, also for sweeps and relaxation tests in one figure.
+
+    >>> rubber = tl.materials.Prony(3e6, ((0.5, 0.1),), 0.49)
+    >>> figure = tl.plots.master_curve(rubber, frequencies=(0.01, 100.0))
+    >>> [f"{modulus:.1f} MPa" for modulus in figure.axes[0].lines[0].get_ydata()[[0, -1]]]
+    ['1.5 MPa', '3.0 MPa']
     """
     curves_drawn: list[Shown] = _listed(curves)
     if any(isinstance(_data(curve), RelaxationTest) for curve in curves_drawn):
@@ -131,6 +136,10 @@ def shift_factors(
     curves: master curves and laws. labels: a name each. temperatures: (lowest, highest), °C, over which laws are
     drawn, as far as they hold; those of the data if left out. ax: axes to draw into. Returns the figure.
     Raises InputError.
+
+    >>> figure = tl.plots.shift_factors(tl.materials.WLF(19.0, 150.0, 15.0), temperatures=(0.0, 40.0))
+    >>> [f"{decades:.1f}" for decades in figure.axes[0].lines[0].get_ydata()[[0, -1]]]  # log10 aT at 0 and 40 °C
+    ['2.1', '-2.7']
     """
     listed: list[MasterCurve | ShiftLaw] = _listed(curves)
     names = _names(listed, labels)

@@ -20,7 +20,15 @@ _NUMBERS = ("net_area", "mean_pressure", "largest_pressure", "largest_traction",
 
 
 class ContactStep(Source, name="contact"):
-    """A tire in its rolling state, `[tire]` and `[rolling]`, on the road: what a case is about if nothing else."""
+    """A tire in its rolling state, `[tire]` and `[rolling]`, on the road: what a case is about if nothing else.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel |= {"rolling": {"normal_load": "32.5 kN", "friction": 0.7}, "response": {"depths": ["0 mm", "20 mm"]}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> plan = tl.plan(tl.Case.from_dict(wheel | road))
+    >>> next(line for line in plan.splitlines() if line.startswith("contact"))
+    'contact   27 x 29 cells of 12 x 12 mm, 783 cells'
+    """
 
     uses: ClassVar = ("title", "spacing", "tolerance", "road_compliance", "tire", "pavement", "rolling")
     needs: ClassVar = ("pavement", "tire", "rolling")

@@ -32,6 +32,14 @@ class DamageStep(Step, name="damage"):
     on where cells lie, 1 that of one; left out, 2 where the tire is known between its cells and no depth is given.
     error_estimate: also solve the case on cells twice as large, and report how much the reading changes. See
     `treadload.assess`.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel |= {"rolling": {"normal_load": "32.5 kN", "friction": 0.7}, "response": {"depths": ["0 mm", "20 mm"]}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> fatigue = {"damage": {"fatigue": {"epsilon_6": "120 microstrain", "slope": -0.2}}}
+    >>> plan = tl.plan(tl.Case.from_dict(wheel | road | fatigue))
+    >>> next(line for line in plan.splitlines() if line.startswith("verdict"))
+    'verdict   fatigue line, ε₆ = 120 microstrain, slope -0.2, means over 10 mm in the top layer'
     """
 
     after: ClassVar = ("contact", "response")

@@ -21,6 +21,16 @@ class FieldShiftStep(Step, name="field_shift"):
     """`[field_shift]` of a design case: years of roads beside those of the mechanics at the surface.
 
     shift: name of a field shift, "LTPP", or a TOML file with one, "ours.toml".
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> tl.Case.from_dict(case | {"field_shift": {}})
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: case: it needs a criterion that reads tensile strain at the surface, and none
+        does; add one with place = "top" of layer 1, or leave [field_shift] out
     """
 
     after: ClassVar = ("life",)

@@ -29,7 +29,15 @@ _MARKS = frozenset({"traffic", "climate", "ageing", "criteria"})
 
 
 class LifeStep(Source, name="life"):
-    """The service life of a road under `[traffic]` and `[climate]`, by its `[[criteria]]`."""
+    """The service life of a road under `[traffic]` and `[climate]`, by its `[[criteria]]`.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> print(tl.plan(tl.Case.from_dict(case)).splitlines()[-1])
+    criterion soil: French method, subgrade, 12000 microstrain x N^-0.222 at 210 mm
+    """
 
     uses: ClassVar = ("title", "spacing", "tolerance", "tire", "pavement", "traffic", "climate", "ageing", "criteria")
     needs: ClassVar = ("tire", "pavement", "traffic", "climate")

@@ -27,6 +27,13 @@ class ReliabilityStep(Step, name="reliability"):
     moduli, a list of [layer, layer, correlation]. coverage: share of a criterion's damage that is solved again
     with the inputs changed. held_back: direct solves at each risk for the error of its years; 0 for none. draws: of
     the Monte Carlo. seed: of the draws.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> print(tl.plan(tl.Case.from_dict(case | {"reliability": {"risks": [0.05]}})).splitlines()[-1])
+    scatter   5 roads for each criterion, in the seasons that do half of its damage
     """
 
     after: ClassVar = ("life",)

@@ -34,6 +34,13 @@ class RemediesStep(Step, name="remedies"):
     by which braking, starting and turning are gentler. friction: more and less. only: kinds to solve, of
     "thickness", "mix", "bond", "wander", "load", "tire", "pressure", "speed", "braking", "turning", "friction"; left
     out, all. See `treadload.life.RemedySteps` for the reasons of the defaults.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> print(tl.plan(tl.Case.from_dict(case | {"remedies": {}})).splitlines()[-1])
+    remedies  12: 12 take about as many responses as the life each, 5 of them new contacts too; 5 do not apply
     """
 
     after: ClassVar = ("life",)

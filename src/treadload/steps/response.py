@@ -43,6 +43,13 @@ class ResponseStep(Step, name="response"):
     a quarter below the last interface, 600 mm at most. wheels: copies of the contact, whose responses add up; left
     out, one at the origin. speed: left out, that of [rolling]; a viscoelastic road needs one. side: "above" or
     "below", of an interface that a depth falls on.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel |= {"rolling": {"normal_load": "32.5 kN", "friction": 0.7}, "response": {"depths": ["0 mm", "20 mm"]}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> plan = tl.plan(tl.Case.from_dict(wheel | road))
+    >>> next(line for line in plan.splitlines() if line.startswith("response"))
+    'response  45 x 47 points at 2 depth(s), 0, 20 mm'
     """
 
     swept: ClassVar = True

@@ -17,6 +17,13 @@ class RuttingStep(Step, name="rutting"):
 
     limit: depth of the rut that ends the life; left out, none does. water_content: of soil and unbound layers, a
     share of their dry mass. calibration: local factor on all of the rut. See `treadload.damage.Rutting`.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> [step.name for step in tl.Case.from_dict(case | {"rutting": {"limit": "12.7 mm"}}).steps]
+    ['life', 'rutting', 'sensitivity', 'equivalents']
     """
 
     after: ClassVar = ("life",)

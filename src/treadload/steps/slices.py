@@ -26,7 +26,15 @@ _BELOW_FACE = 1e-6
 
 
 class SlicesStep(Step, name="slices"):
-    """Vertical slices along and across travel, through the worst point of the assessment if it lies in the map."""
+    """Vertical slices along and across travel, through the worst point of the assessment if it lies in the map.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel |= {"rolling": {"normal_load": "32.5 kN", "friction": 0.7}, "response": {"depths": ["0 mm", "20 mm"]}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> plan = tl.plan(tl.Case.from_dict(wheel | road))
+    >>> next(line for line in plan.splitlines() if line.startswith("slices"))
+    'slices    45 and 47 points at 35 depths down to 262.5 mm'
+    """
 
     after: ClassVar = ("contact", "response")
     also: ClassVar = ("damage",)

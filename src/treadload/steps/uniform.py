@@ -23,6 +23,13 @@ class UniformStep(Step, name="uniform"):
     depths: left out, the surface, some down to 160 mm and the bottoms of the layers. pressure: of the uniform loads;
     left out, the inflation pressure. slenderness: length along travel over width of the rectangle. mean_over: side of
     the cube of road whose mean strain is evaluated near the surface.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5", "inflation_pressure": "8 bar"}, "spacing": "12 mm"}
+    >>> wheel |= {"rolling": {"normal_load": "32.5 kN", "friction": 0.7}, "response": {"depths": ["0 mm", "20 mm"]}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> plan = tl.plan(tl.Case.from_dict(wheel | road | {"uniform": {}}))
+    >>> next(line for line in plan.splitlines() if line.startswith("uniform"))
+    'uniform loads disc and rectangle; depths chosen by the road'
     """
 
     swept: ClassVar = True

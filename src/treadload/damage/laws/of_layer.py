@@ -27,7 +27,12 @@ Law = FatigueLaw | Callable[[float], FatigueLaw]
 
 @dataclass(frozen=True)
 class OnLayer:
-    """A layer that a law applies to. name: of the criterion. road. number: of the layer, 0 at the surface."""
+    """A layer that a law applies to. name: of the criterion. road. number: of the layer, 0 at the surface.
+
+    >>> base = tl.damage.OnLayer("base", tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3"), 1)
+    >>> f"{base.asphalt() * 1e3:.0f} mm of asphalt on a platform of {base.platform_modulus / 1e6:.0f} MPa"
+    '210 mm of asphalt on a platform of 120 MPa'
+    """
 
     name: str
     road: Pavement

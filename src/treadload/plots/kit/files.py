@@ -30,6 +30,11 @@ def save(figure: Figure, path: str | PathLike[str], *, dpi: float | None = None)
 
     figure: from any function of this package. path: of the file. dpi: points per inch of pixels, 180 if left out.
     Returns the path. Raises InputError for an unknown ending or a path that cannot be written.
+
+    >>> tl.plots.save(tl.plots.new_figure(3.0, 2.0), "figure.bmp")
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: a figure cannot be written as '.bmp'; use one of .png, .svg, .pdf
     """
     kind = _FORMATS.get(Path(path).suffix.lower())
     if kind is None:

@@ -86,6 +86,13 @@ def both_sides(above: Source, below: Source) -> xr.Dataset:
     above, below: solved at the same points with side="above" and side="below". Returns the first with the rows
     of the second that lie on an interface added after its own; depths increase, those of interfaces appear twice.
     Raises InputError if the points differ.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, at = tl.UniformDisc(0.15, 7e5), {"depths": [0.15], "x": [0.0], "y": [0.0]}
+    >>> sides = (tl.solve_response(plate, road, side=side, **at) for side in ("above", "below"))
+    >>> stress = tl.plots.both_sides(*sides).stress_xx
+    >>> [f"{value / 1e3:.0f} kPa" for value in stress.values.ravel()]  # the layers share strain, not stress
+    ['2034 kPa', '-18 kPa']
     """
     upper, lower = fields_of(above, "depth").sortby("depth"), fields_of(below, "depth").sortby("depth")
     if not all(upper[name].equals(lower[name]) for name in ("x", "y")):
