@@ -33,7 +33,7 @@ def test_names_at_the_top_have_examples(documented):
     names = {name for name in documented if name.count(".") == 1}
     assert {"tl.Elastic", "tl.Pavement", "tl.FatigueLine", "tl.solve_response", "tl.assess", "tl.Case"} <= names
     # Of all public names; the number may grow.
-    assert len(documented) >= 240
+    assert len(documented) >= 250
 
 
 def test_examples_of_public_names_hold(documented, tmp_path):

@@ -86,6 +86,13 @@ def calibrate(
     Raises InputError for fewer data than unknowns and what cannot be measured or sought; ConvergenceError of a
     contact, and of a search that did not end.
     Method: trust-region reflective least squares (Branch, Coleman & Li 1999); covariance from the Jacobian.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.5, 1.0, 0.25), inflation_pressure=8e5)
+    >>> tl.calibrate(tire, ["foundation", "modulus"], [tl.footprint.Measured(load=30e3, deflection=0.03)])
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: 1 readings cannot determine 2 numbers (foundation, modulus); measure more, or
+    seek at most 1
     """
     began = time.perf_counter()
     if isinstance(jobs, bool) or not isinstance(jobs, int) or jobs < 1:

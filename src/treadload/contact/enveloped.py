@@ -68,6 +68,14 @@ def envelop(contact: Contact, length: float) -> Enveloped:
     or less: there it makes next to no difference. The load, the forces and the place of their middle are kept to
     round-off; the grid grows by what spreads. Raises InputError for a length below two cells, which leaves nothing
     to envelop.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.7), spacing=0.006)
+    >>> tl.contact.envelop(contact, length=0.006)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: an enveloping length of 6 mm is less than two cells of 6 mm; take a longer one
     """
     positive("the enveloping length", length, "metres", "20 mm is 0.02")
     data = contact.dataset

@@ -31,6 +31,10 @@ class Maneuver:
     load_ratio: load of the wheel in the maneuver over the load that `rolling` is given, > 0: above 1 where the
     vehicle leans on this wheel. tractive and lateral are over the load in the maneuver.
     Raises InputError.
+
+    >>> braking = tl.contact.Maneuver.braking(3.0)  # m/s²
+    >>> f"{braking.rolling(32.5e3, friction=0.7).tractive_force / 1e3:.1f} kN"
+    '-9.9 kN'
     """
 
     name: str = "straight"

@@ -53,6 +53,12 @@ def rolling_resistance(contact: Contact, radius: float) -> RollingResistance:
     take is lost in the materials: M/R - W - ξ Q_x - η Q_y - φ M_z. In elastic ones that is zero, but for an error
     that falls with the cell size. Raises InputError for a radius that is not a positive number.
     Source: Johnson (1985), Contact Mechanics, sections 9.1 and 9.4.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.7), spacing=0.006)
+    >>> abs(tl.contact.rolling_resistance(contact, radius=0.3).coefficient) < 1e-3  # elastic: no loss
+    True
     """
     positive("radius", radius, "metres", "a truck tire's is near 0.5 m")
     data = contact.dataset

@@ -29,6 +29,12 @@ class Contact(BaseResult, group="contact"):
 
     dataset: fields on (y, x) and scalars, named and signed as in docs/explanation/conventions.md.
     stats: iterations, residuals, seconds. warnings: sentences for the user.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.7), spacing=0.006)
+    >>> f"{100.0 / contact.area / 1e3:.0f} kPa on average"
+    '132 kPa on average'
     """
 
     columns: ClassVar[Columns] = Columns("Contact", "Contact solver")

@@ -79,6 +79,12 @@ def solve_contact(
     the contact is larger than the surface, ConvergenceError with the residual reached.
     Method: Kalker (1990) on half-spaces; dissimilar materials by `contact.solvers.coupling`, layers by
     `kernels.layers.images`.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=100.0, friction=0.7), spacing=0.006)
+    >>> f"peak pressure {contact.dataset.pressure.max() / 1e3:.0f} kPa"  # Hertz: 212 kPa
+    'peak pressure 212 kPa'
     """
     began = time.perf_counter()
     search = Search(spacing, offset, tolerance, road_compliance, relief, start)

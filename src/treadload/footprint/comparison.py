@@ -52,6 +52,11 @@ class FootprintComparison(BaseResult, group="comparison"):
     measured), shares of the ribs, forces on the thirds of each where there is shear, and how well they agree; see
     `treadload.variables`. footprint: as it was laid.
     registration: how. warnings: sentences for the user.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measured = tl.Footprint(tl.response.GridLoad(load.grid, 0.9 * load.pressure))
+    >>> f"{tl.compare(load, measured, registration='none').dataset.overlap_of_area.item():.0%} of the area overlaps"
+    '100% of the area overlaps'
     """
 
     title: ClassVar[str] = "Computed and measured footprint"
@@ -149,6 +154,11 @@ def compare(
     which both are averaged, of a footprint without pins of its own.
     Returns measures, overlap, difference and one sentence. Raises InputError for loads that differ by more, for
     a footprint that does not meet the contact, and for what is neither.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measured = tl.Footprint(tl.response.GridLoad(load.grid, 0.9 * load.pressure))
+    >>> f"{tl.compare(load, measured, registration='none').dataset.rms_difference.item() / 1e3:.0f} kPa"
+    '60 kPa'
     """
     load, sensor = _load(result), _pinned(_footprint(footprint), pin)
     if not load_tolerance > 0:

@@ -42,6 +42,10 @@ class Footprint(BaseResult, group="contact"):
     y, m, over which a cell's reading is a mean; None of sensels that fill their cells. warnings: sentences. errors:
     of an interpolated one, see `FootprintSet.errors`; empty of one that was recorded.
     Raises InputError for a wrong value.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> f"{tl.Footprint(load).scaled_to('10 kN').mean_pressure / 1e3:.0f} kPa"
+    '781 kPa'
     """
 
     title: ClassVar[str] = "Recorded footprint"

@@ -103,6 +103,11 @@ class Measured:
     errors: standard deviation of readings by their names, in their SI units, or texts such as "0.3 mm" and "2 %".
     name: free text.
     Raises InputError for a reading that cannot be one, and where there is none.
+
+    >>> measured = tl.footprint.Measured(load=30e3, deflection=0.03, errors={"deflection": "0.3 mm"})
+    >>> size, given = measured.error("deflection", 0.03, {})
+    >>> f"{size * 1e3:.1f} mm"
+    '0.3 mm'
     """
 
     load: Force | None = None
@@ -239,6 +244,9 @@ class Unknown:
     name: of a number of the tire (`treadload.tire.numbers`), or "friction". start: of the search; left out, what the
     tire has. low, high: between which it is sought. SI, or texts with their unit.
     Raises InputError for an unknown name, and for a start outside its bounds.
+
+    >>> tl.footprint.Unknown("foundation", low=2.0, high=5.0).words
+    'hold of the sidewalls per inflation pressure'
     """
 
     name: str

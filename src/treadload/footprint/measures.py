@@ -25,6 +25,11 @@ class Measures:
     length, width: from the first to the last loaded cell along x and y, m. mean, peak: pressure, Pa; the mean is over
     the net area. centre_x, centre_y: of pressure, m. spread_x, spread_y: standard deviations of x and y under the
     pressure, m.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measures = tl.Footprint(load).measures
+    >>> f"{measures.load / 1e3:.2f} kN on {measures.net_area * 1e4:.0f} cm²"
+    '7.68 kN on 128 cm²'
     """
 
     load: float

@@ -25,6 +25,12 @@ def sample_pins(
     load: as computed, see `GridLoad.from_dataset` of a contact. pin: side of the square faces, or sides along x and
     y, m. pitch: between pins, m, at least as wide as one. step: of travel between readings, m. offset: of a pin from
     y = 0, m. Readings are means over faces, exact by area, without noise. Raises InputError for pins that overlap.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.01), [[0] * 4 + [6e5] * 8 + [0] * 4] * 16)
+    >>> tl.footprint.sample_pins(load, pin=0.010, pitch=0.008)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: pins 10 mm wide overlap at a pitch of 8 mm; give a pitch of at least 10 mm
     """
     face = checked_pin(pin if isinstance(pin, tuple) else (pin, pin))
     positive("pitch of the pins", pitch, "m", "17 mm is 0.017")
@@ -50,6 +56,12 @@ def write_pins(footprint: Footprint, path: str | os.PathLike[str], *, comment: s
 
     footprint: of pins. comment: lines that state what it is, above the declared layout. Missing readings are left
     empty. Raises InputError for a footprint without pins.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.01), [[0] * 4 + [6e5] * 8 + [0] * 4] * 16)
+    >>> pins = tl.footprint.sample_pins(load, pin=0.010, pitch=0.020, step=0.010)
+    >>> tl.footprint.write_pins(pins, folder / "pins.csv")
+    >>> f"{tl.footprint.read_footprint(folder / 'pins.csv').peak_pressure / 1e3:.0f} kPa"
+    '600 kPa'
     """
     if footprint.pin is None:
         raise InputError(

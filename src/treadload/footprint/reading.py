@@ -76,6 +76,14 @@ def read_footprint(
     background=, unclear= of pictures (`footprint.image.read`).
     Returns the footprint with what is doubtful in `.warnings`. Raises InputError for what cannot be read, is at odds
     with itself, has no unit, or is saturated everywhere.
+
+    >>> _ = (folder / "print.csv").write_text('''0,200,300,0
+    ... 0,600,650,0
+    ... 0,580,610,0
+    ... 0,210,190,0''')
+    >>> footprint = tl.footprint.read_footprint(folder / "print.csv", units="kPa", spacing="10 mm")
+    >>> f"{footprint.normal_load:.0f} N on {footprint.net_area * 1e4:.0f} cm²"
+    '334 N on 8 cm²'
     """
     path = Path(path)
     if not os.path.isfile(path):
@@ -120,7 +128,12 @@ def read_footprint(
 
 
 def is_sensor_file(path: str | os.PathLike[str]) -> bool:
-    """True for the text of a sensor's export, False for a table, a matrix, and what cannot be read."""
+    """True for the text of a sensor's export, False for a table, a matrix, and what cannot be read.
+
+    >>> _ = (folder / "matrix.csv").write_text("0,200,300,0")
+    >>> tl.footprint.is_sensor_file(folder / "matrix.csv")
+    False
+    """
     try:
         return os.path.isfile(path) and tekscan.looks_like(_text(Path(path)))
     except InputError:
@@ -128,7 +141,12 @@ def is_sensor_file(path: str | os.PathLike[str]) -> bool:
 
 
 def is_pin_table(path: str | os.PathLike[str]) -> bool:
-    """True for a table of pins that measure three components, False for all else and what cannot be read."""
+    """True for a table of pins that measure three components, False for all else and what cannot be read.
+
+    >>> _ = (folder / "matrix.csv").write_text("0,200,300,0")
+    >>> tl.footprint.is_pin_table(folder / "matrix.csv")
+    False
+    """
     try:
         return os.path.isfile(path) and pins.looks_like(_text(Path(path)))
     except InputError:

@@ -127,6 +127,10 @@ def register(load: GridLoad, footprint: Footprint, *, turns: bool = True) -> Reg
     The load is seen through the sensor at every pose, scaled to the footprint's pressures: a wrong calibration does
     not move it. turns: False leaves quarter turns and mirror images out. A pose other than as it stands is taken
     where it overlaps clearly more.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> tl.footprint.register(load, tl.Footprint(load), turns=False).words
+    'as it stands'
     """
     poses = [(k, m) for m in (False, True) for k in range(4)] if turns else [(0, False)]
     coarse, rough = _coarse(load, footprint, _COARSE), _coarsened(footprint, _COARSE)

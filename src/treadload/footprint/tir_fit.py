@@ -178,6 +178,14 @@ def magic_formula(
     Raises InputError for fewer loads, pressures of a tire that does not depend on them, a tire without a radius, that
     leans or that pulls to a side, curves that never slide, and as `solve_contact`.
     Source: Pacejka (2012), Tire and Vehicle Dynamics, section 4.3; Besselink et al. (2010); bounded least squares.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.5, 1.0, 0.25), inflation_pressure=8e5)
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5e9, 0.35)), tl.Rolling(normal_load=30e3, friction=0.7)
+    >>> tl.footprint.magic_formula(tire, road, wheel, loads=[20e3, 40e3])
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: a fit needs 3 loads or more, got 2: its coefficients are quadratic in the load;
+    give such as [20e3, 27.5e3, 35e3] N ("20 kN; 27.5 kN; 35 kN")
     """
     forces = listed_loads(loads)
     if len(forces) < _FEWEST:

@@ -93,6 +93,12 @@ def tire_card(
     stiffness over it. Ribs are those of the heaviest load; outer ones over the middle is the ratio of their loads.
     Raises InputError for loads or pressures that are not positive, and as `solve_contact`.
     Sources of terms: ISO 8855:2011; Pacejka (2012), Tire and Vehicle Dynamics, chapters 1 and 5.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
+    >>> card = tl.footprint.tire_card(tire, road, [100.0], stiffness=False, spacing=0.006)
+    >>> f"{card.dataset.loaded_radius.item() * 1e3:.0f} mm loaded, 300 mm unloaded"
+    '299 mm loaded, 300 mm unloaded'
     """
     forces = listed_loads(loads)
     inflation = [tire.inflation_pressure or math.nan] if pressures is None else listed_pressures(pressures)

@@ -34,6 +34,14 @@ class Design:
     season.
     contacts: those solved so far, which all verbs share; `dataclasses.replace` keeps them while tire and spacing
     stay. Raises InputError.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.5, 1.0, 0.25), inflation_pressure=8e5)
+    >>> bus = tl.damage.AxleClass("bus", 1.0, wheel_load=35e3, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((bus,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1)
+    >>> design = tl.Design(tire, tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3"), traffic, climate, [base])
+    >>> round(tl.pavement.bituminous_thickness(design.with_thickness(1, 0.18).road, 1), 3)  # m, with 180 mm of base
+    0.24
     """
 
     tire: Tire

@@ -58,6 +58,11 @@ def report(results: object, path: str | PathLike[str], *, title: str = "") -> Pa
     results: of any verb: one, a list, or a mapping of names to them; contacts, responses, assessments, lives, the
     result of a case, what `open_results` read. Results of a case, trees and opened files stand side by side as cases
     of their own. path: of the file. title: heading. Returns the path. Raises InputError as `write_report`.
+
+    >>> tl.report([], "report.html")
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: a report needs at least one case; give a name and a tree of results
     """
     named: Mapping[str, object]
     if isinstance(results, Mapping):

@@ -27,6 +27,13 @@ def save_results(results: Any, path: str | os.PathLike[str]) -> Path:
     results: whatever verbs give: a result, a list or a mapping of names to results, the result of a case, a tree of
     `to_tree`, results that were opened. A dataset alone is written as it is.
     Raises InputError if the path cannot be written, or its suffix names another format.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.1, 0.1, 0.01), [[1e5] * 10] * 10)
+    >>> tl.save_results(tl.Footprint(load), "footprint.txt")
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: cannot write NetCDF to footprint.txt: the suffix .txt is not known, use .nc or
+    .nc4 or .h5 (NetCDF)
     """
     check_suffix(path, NETCDF, "NetCDF")
     data = results if isinstance(results, xr.Dataset) else as_tree(results)
@@ -73,6 +80,12 @@ def open_results(path: str | os.PathLike[str]) -> Results:
     Parts come by their names, `open_results("x.nc").contact.plot.pressure()`, and go into every verb. What no file
     can hold, the mesh of a scan or a function, raises an error that explains this when a verb needs it.
     Raises InputError if the file is not a result of treadload, is broken, or written by a later treadload.
+
+    >>> tl.open_results("road_42.nc")
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: there is no result file road_42.nc; `treadload run case.toml -o road_42.nc`
+    makes one
     """
     path = Path(path)
     if path.suffix == ".zarr" and path.is_dir():

@@ -83,6 +83,16 @@ def run(
     progress: called with a line of text at every stage. shown: called with the name of each result and the result as
     soon as it is there.
     Raises InputError for a case that cannot be solved, and the errors of reading and of the solvers.
+
+    >>> case = tl.Case.from_text('''
+    ... spacing = "6 mm"
+    ... tire = { profile = { rolling_radius = 0.3, crown_radius = 0.3, width = 0.06 }, inflation_pressure = "8 bar" }
+    ... pavement = { layers = [{ material = { kind = "elastic", modulus = "5 GPa", poisson = 0.35 } }] }
+    ... rolling = { normal_load = "100 N", friction = 0.7 }
+    ... ''')
+    >>> contact = tl.run(case, leave_out=("response", "slices")).contact
+    >>> f"{contact.area * 1e4:.0f} cm²"
+    '10 cm²'
     """
     options = Options(leave_out=leave_out, workers=workers, jobs=jobs, state=state)
     scene = Scene(case, _progress(progress), options)
@@ -109,6 +119,15 @@ def plan(case: Case) -> str:
 
     Reads the tire, or the footprint, and finds where the contact lies. Raises the errors of reading, and those of
     forces that friction cannot carry.
+
+    >>> case = tl.Case.from_text('''
+    ... spacing = "6 mm"
+    ... tire = { profile = { rolling_radius = 0.3, crown_radius = 0.3, width = 0.06 }, inflation_pressure = "8 bar" }
+    ... pavement = { layers = [{ material = { kind = "elastic", modulus = "5 GPa", poisson = 0.35 } }] }
+    ... rolling = { normal_load = "100 N", friction = 0.7 }
+    ... ''')
+    >>> "15 x 15 cells of 6 x 6 mm" in tl.plan(case)
+    True
     """
     outline = Outline(case)
     for step in case.steps:

@@ -181,6 +181,16 @@ def sweep(
     Returns the Sweep. A case that fails is kept with its reason, and the others go on. Raises InputError for wrong
     keys, values and fields, for a store of another study and a full disk; SchedulerLost; WorkersLost where processes
     cannot start.
+
+    >>> case = tl.Case.from_text('''
+    ... tire = { profile = "315/80R22.5", inflation_pressure = "8.2 bar" }
+    ... pavement = { structure = "6 BBSG3 / 15 GB3 / PF3", temperature = 15 }
+    ... rolling = { normal_load = "32.5 kN", friction = 0.7 }
+    ... ''')
+    >>> tl.sweep(case, {"normal_laod": ["20 kN", "30 kN"]})
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: the case has no key 'normal_laod'; did you mean 'normal_load'?
     """
     check_varied(case)
     design = _design(case, vary)
