@@ -58,6 +58,11 @@ def tearing_work(contact: Source, shear_modulus: float, *, texture_depth: float 
     depth t around the stones, which nothing holds at its sides. contact: with traction_x, traction_y. shear_modulus:
     G of the mix at its temperature, Pa. texture_depth: t, m. Not calibrated: it ranks maneuvers and temperatures.
     Raises InputError.
+
+    >>> recorded = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]], [[50e3, 200e3, 100e3]], spacing=0.05)
+    >>> work = tl.damage.tearing_work(tl.Footprint(recorded), shear_modulus=40e6)
+    >>> f"{work.item():.2f} J/m²"
+    '0.50 J/m²'
     """
     positive("shear_modulus", shear_modulus, "Pa", "asphalt is near 2e9 at 15 °C")
     positive("texture_depth", texture_depth, "metres", "1 mm is 0.001")

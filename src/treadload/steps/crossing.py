@@ -33,6 +33,14 @@ class CrossingStep(Step, name="crossing"):
     sink with the road; "axle" keeps it at its height on the plane. spacing: of the cells; left out, that of the case.
     sliding: true to follow shear as well, under the friction and forces of `[rolling]`; false leaves it out, and the
     pressures are the same.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> tl.Case.from_dict(wheel | road | {"crossing": {}})
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: case: crossing: give one obstacle, step, joint or plate, got none; each is a
+        case of its own
     """
 
     one_of: ClassVar = ("step", "joint", "plate")

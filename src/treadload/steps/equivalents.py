@@ -11,7 +11,15 @@ from treadload.steps.scene import Scene
 
 
 class EquivalentsStep(Step, name="equivalents"):
-    """The traffic in standard axles, and the climate as one temperature."""
+    """The traffic in standard axles, and the climate as one temperature.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> [step.name for step in tl.Case.from_dict(case).steps]
+    ['life', 'sensitivity', 'equivalents']
+    """
 
     after: ClassVar = ("life",)
     also: ClassVar = ("sensitivity", "reliability", "growth")

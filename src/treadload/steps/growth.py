@@ -33,6 +33,16 @@ class GrowthStep(Step, name="growth"):
     faces. layers: that it goes through, from the one where it starts. steps: depths at which its stress intensity is
     solved. points: along the crack at which its faces may touch. scatter: of log₁₀ of the passes to initiation; left
     out, that of the criterion's law, or 0.25.
+
+    >>> axle = {"name": "axle", "share": 1, "axle_load": "100 kN", "inflation_pressure": "8 bar"}
+    >>> case = {"tire": {"profile": "315/80R22.5"}, "pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3"}}
+    >>> case |= {"traffic": {"passes_per_year": 1e5, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> case["criteria"] = [{"name": "soil", "law": "french-subgrade"}]
+    >>> tl.Case.from_dict(case | {"growth": {}})
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: case: no criterion reads the top of the road or the bottom of a layer, where a
+        crack could start; add one, or leave out [growth]
     """
 
     after: ClassVar = ("life",)

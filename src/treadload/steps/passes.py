@@ -22,6 +22,14 @@ class PassesStep(Step, name="passes"):
     travel a twelfth of a rib's width where that is less. depth: of the box of these, from the surface; left out, it
     grows until it holds what yields. layers: rows of cells in it; left out, as many as it takes.
     wander: standard deviation of the wheel's place across the road; left out, all passes follow one line.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> tl.Case.from_dict(wheel | road | {"passes": {"count": 10}})
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: case: [passes] need a layer that can yield: give one of the layers a
+        plasticity, such as { kind = "mohr-coulomb", cohesion = "100 kPa", friction_angle = "35 deg" }
     """
 
     count: int = 10
