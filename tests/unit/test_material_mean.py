@@ -277,6 +277,37 @@ def test_the_reading_is_the_largest_between_the_points_of_the_map():
     assert largest > 1.02 * float(data.extension_by_depth.max())
 
 
+def test_a_map_coarser_than_the_mean_is_searched_between_its_points():
+    """The same field on maps of any spacing: the largest strain is that of a map of 2 mm."""
+    block = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 1.0, 0.05, 0.0), inflation_pressure=820e3)
+    contact = tl.solve_contact(block, HALF, tl.Rolling(normal_load=3e3, tractive_force=1e3, friction=0.7))
+    ends = [contact.dataset[name].to_numpy()[[0, -1]] for name in ("x", "y")]
+
+    def assessed(spacing):
+        x, y = (np.arange(first, last + spacing / 2, spacing) for first, last in ends)
+        return assess(solve_response(contact, HALF, depths=[0.0], x=x, y=y), LINE)
+
+    fine = float(assessed(0.002).dataset.worst_strain)
+    for spacing in (0.01, 0.0115, 0.015):
+        coarse = assessed(spacing)
+        # The line where tension ends cuts the strain off; the searches of two maps meet it at different points.
+        assert float(coarse.dataset.worst_strain) == pytest.approx(fine, rel=6e-3)
+        assert float(coarse.dataset.extension_by_depth.max()) < 0.9 * fine
+        assert not any("apart" in text for text in coarse.warnings)
+    # Four points across are chosen places and not a map.
+    (text,) = (text for text in assessed(0.03).warnings if "apart" in text)
+    assert "30 mm along y apart" in text
+    assert "a spacing of 10 mm or less" in text
+
+
+def test_a_map_too_large_to_be_filled_is_named():
+    at = np.linspace(-2.0, 2.0, 9)
+    result = assess(solve_response(UniformDisc(0.15, 8e5), LAYERS, depths=[0.0], x=at, y=at), LINE)
+    (text,) = (text for text in result.warnings if "apart" in text)
+    assert "500 mm along y and 500 mm along x apart" in text
+    assert "a spacing of 10 mm or less" in text
+
+
 def test_a_coarser_grid_that_is_too_coarse_is_named():
     from cases import COARSE_CASE
 

@@ -317,6 +317,14 @@ def test_rows_are_tables_with_their_remarks():
     assert single.rows == (("third", "\u221212345 N", "at x = \u22121.0 mm, y = 0.0 mm"), ("fourth", "a-b", ""))
 
 
+def test_inputs_of_steps_have_their_units():
+    """A case has the tables of its steps as fields that no annotation of its class names."""
+    table = {"response": {"depths": [0.0, 0.06]}, "damage": {"fatigue": {"epsilon_6": 1.2e-4, "slope": -0.2}}}
+    given = {entry.name: (entry.text, entry.unit) for entry in entries(tl.Case, table)}
+    assert given["response: depths"] == ("0, 60", "mm")
+    assert given["damage: ε₆, strain at a million load repetitions"] == ("120", "microstrain")
+
+
 def test_inputs_in_us_units():
     for value, symbol, si, us in (
         (0.2, "m", ("200", "mm"), ("7.874", "in")),

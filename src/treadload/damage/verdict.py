@@ -32,7 +32,7 @@ from treadload.damage.reading import Field, check_law, local_field, mean_field, 
 from treadload.damage.rib_sides import filled_ribs
 from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_loads
 from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
-from treadload.damage.worst_point import closer
+from treadload.damage.worst_point import closer, unsearched
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
 from treadload.rows import Place, Row, row
@@ -179,10 +179,12 @@ def assess(
 
     response: of `solve_response` on a grid. Its road is solved again for means over a cube of `mean_over`, m, at each
     of its depths that lies in the top layer, to which the line applies, and around the worst of them on points and at
-    depths closer to each other; the worst of all is the result, with its depth. A response that already
-    is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well, on few
-    points and as far as it reaches; deeper down the field is solved further where the largest of the map lies at
-    its end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the result; a
+    depths closer to each other; the worst of all is the result, with its depth. Points further apart than `mean_over`
+    get others between them first, up to 50 000; a warning states where they stay further apart. A response that
+    already is a mean is read as it is. Within 50 mm of the surface the basin around the loads is evaluated as well,
+    on few points and as far as it reaches; deeper down the field is solved further where the largest of the map
+    lies at its end, or no crack opens in it, until the largest lies inside. The larger of map and basin is the
+    result; a
     warning states the place if it is beyond the map, or that the largest still lies at the end.
     line: fatigue line or another law that reads an extension; one of the surface reads depth 0 only, one of the
     bottom needs `depth`.
@@ -238,7 +240,7 @@ def assess(
     field = Field(data, quantity)
     level = field.worst[0]
     deep = float(data["depth"][level])
-    closer_values = closer(means, field) if means is not None and field.value[field.worst] > 0 else None
+    closer_values = None if means is None else closer(means, field)
     near, around = (field, field.largest) if closer_values is None else closer_values
     further, beyond = evaluated_further(response, field, means)
     near = near if further is None or not further.most > near.most else further
@@ -281,6 +283,7 @@ def assess(
     evaluated = float(near.value[at]) if opens else 0.0
     caveats += bright_spot(alone, quantity.strain, evaluated, data.attrs.get("mean_over"))
     caveats += border_in_words(alone, field, beyond)
+    caveats += [] if means is None else unsearched(field)
     caveats += bottoms_without_depth(alone)
     caveats += filled_ribs(alone, data["depth"].to_numpy())
     dataset = variables.dataset(

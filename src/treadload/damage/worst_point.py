@@ -30,17 +30,27 @@ _CHEBYSHEV = 5
 _ROUGH = 1e-5
 # Readings nearer to each other than this are the same.
 _SAME = 1e-6
+# Points along an axis from which they are a map, and not a few places that were chosen.
+_MAP = 5
+# A map is filled with points up to so many in all, over its depths.
+_MOST = 50_000
+# Of distances between points.
+_ROUND_OFF = 1e-9
 
 
 def closer(means: Means, field: Field) -> tuple[Field, dict[str, float]] | None:
-    """The worst point between those of a field, and the largest strains around it; None where the map is too coarse.
+    """The worst point between those of a field, and the largest strains around it; None where it is not searched.
 
-    field: means over (depth, y, x). The map's points lie as far apart as its cells, and the largest reading lies
+    field: means over (depth, y, x). A map whose points lie further apart than the side of the cubes is filled with
+    points first, see `filled`. The map's points lie as far apart as its cells, and the largest reading lies
     between them: by round maxima a little higher, by the line where tension ends, which cuts the reading off at once,
     by up to a twentieth. So the neighbourhood is searched twice, and that of every maximum near the largest; then the
     depths between those of the field, under the worst point, and the neighbourhood there. Fields within 1e-6 are
     enough to find the point; it is then read in full.
     """
+    field = filled(means, field)
+    if not field.most > 0:
+        return None
     if not means.road.is_viscoelastic:
         better = _worst_between(means, field, rough=True)
         if better is None:
@@ -53,6 +63,57 @@ def closer(means: Means, field: Field) -> tuple[Field, dict[str, float]] | None:
             return exact, better.largest
     better = _worst_between(means, field, rough=False)
     return None if better is None else (better, better.largest)
+
+
+def filled(means: Means, field: Field) -> Field:
+    """A field with further points, so that neighbours lie at most a side of its cubes apart; itself where they do.
+
+    A mean over a cube changes little over its side: at the edge of a rib it may rise by a seventh over 11.5 mm, and
+    by more further away. Axes of fewer than five points are chosen places and stay as they are, and so does a map
+    that would take more than 50 000 points; `unsearched` states this.
+    """
+    axes = _filled_axes(field)
+    if axes is None:
+        return field
+    depths = field.data["depth"].to_numpy()
+    return replace(
+        field, data=read_means(means, field.quantity, depths, rough=not means.road.is_viscoelastic, **axes)
+    )
+
+
+def unsearched(field: Field) -> list[str]:
+    """A sentence if a larger value may lie between the points of a map of means, too far apart to be searched."""
+    axes = _filled_axes(field) or {name: field.data[name].to_numpy() for name in ("y", "x")}
+    apart = {name: float(np.abs(np.diff(at)).max(initial=0.0)) for name, at in axes.items()}
+    wide = [name for name, gap in apart.items() if gap > field.length * (1 + _ROUND_OFF)]
+    if not wide:
+        return []
+    where = " and ".join(f"{1e3 * apart[name]:.4g} mm along {name}" for name in wide)
+    return [
+        f"the evaluation points are up to {where} apart, so that a larger strain may lie between them; points at "
+        f"most {1e3 * field.length:g} mm apart, the side of the cubes over which strain is averaged, are searched: "
+        f"solve the response with a spacing of {1e3 * field.length:g} mm or less"
+    ]
+
+
+def _filled_axes(field: Field) -> dict[str, Array] | None:
+    """The axes y and x of a field with further points; None where none is needed or they are too many."""
+    before = {name: field.data[name].to_numpy() for name in ("y", "x")}
+    after = {name: _filled_axis(at, field.length) for name, at in before.items()}
+    if all(len(after[name]) == len(at) for name, at in before.items()):
+        return None
+    return after if field.data.sizes["depth"] * len(after["y"]) * len(after["x"]) <= _MOST else None
+
+
+def _filled_axis(at: Array, length: float) -> Array:
+    """Coordinates with others evenly between those further apart than a length, m; chosen places as they are."""
+    if len(at) < _MAP:
+        return at
+    parts = np.ceil(np.abs(np.diff(at)) / length * (1 - _ROUND_OFF)).astype(int).clip(1)
+    inside = [
+        np.linspace(low, high, count, endpoint=False) for low, high, count in zip(at[:-1], at[1:], parts, strict=True)
+    ]
+    return np.concatenate([*inside, at[-1:]])
 
 
 def _worst_between(means: Means, field: Field, *, rough: bool) -> Field | None:
@@ -210,8 +271,8 @@ def _around(at: Array, k: int, length: float) -> Array | None:
     if len(at) == 1:
         return at
     apart = float(np.abs(np.diff(at)[max(k - 1, 0) : k + 1]).max())
-    if apart > length:
+    if apart > length * (1 + _ROUND_OFF):
         return None
-    steps = math.ceil(_STEPS * apart / length)
+    steps = math.ceil(_STEPS * apart / length * (1 - _ROUND_OFF))
     around: Array = at[k] + apart / steps * np.arange(-steps, steps + 1)
     return around

@@ -161,7 +161,12 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
         empty_note(ax, f"no tensile strain here:\nthe line sets no limit{_beyond(data)}")
         headline(ax, "Allowable load repetitions")
         return figure
-    least = float(finite.min())
+    row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
+    least, x, y = float(finite.min()), float(plan.x[column]), float(plan.y[row])
+    worst, worst_x, worst_y = (float(data[f"worst_{name}"]) for name in ("passes", "x", "y"))
+    # The worst point lies between those of the map; beyond the map it is named alone.
+    if worst < least and plan.x[0] <= worst_x <= plan.x[-1] and plan.y[0] <= worst_y <= plan.y[-1]:
+        least, x, y = worst, worst_x, worst_y
     _check_drawn([least])
     low, high = 10.0 ** math.floor(math.log10(least)), 10.0 ** (math.floor(math.log10(least)) + _DECADES)
     mesh = draw_cells(ax, plan, np.minimum(values, 10 * high), sequential("strain").reversed(), Limits(low, high))
@@ -170,8 +175,7 @@ def passes(verdict: Source, *, ax: Axes | None = None) -> Figure:
     decades = [low * 10.0**k for k in range(_DECADES + 1)]
     bar.set_ticks(decades, labels=[_decade(passes) for passes in decades])
     bar.minorticks_off()
-    row, column = np.unravel_index(int(np.nanargmin(values)), values.shape)
-    mark_peak(ax, float(plan.x[column]), float(plan.y[row]), power_of_ten(least))
+    mark_peak(ax, x, y, power_of_ten(least))
     headline(
         ax, "Allowable load repetitions", f"fewest {power_of_ten(least)}; {_line_in_words(data)}{_first_beyond(data)}"
     )

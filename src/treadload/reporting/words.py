@@ -241,9 +241,18 @@ def _hints(model: type) -> dict[str, object]:
     return get_type_hints(model, include_extras=True)
 
 
-def annotation_of(model: object, key: str) -> object:
-    """Type of a field with its unit; None where the part or the key is not known."""
-    return None if model is None else _hints(model).get(key)
+def annotation_of(model: type[Table] | None, key: str) -> object:
+    """Type of a field with its unit; None where the part or the key is not known.
+
+    A case has the tables of its steps as fields that no annotation of its class names.
+    """
+    if model is None:
+        return None
+    hints = _hints(model)
+    if key in hints:
+        return hints[key]
+    field = model.model_fields.get(key)
+    return None if field is None else field.annotation
 
 
 def units_in(annotation: object) -> Iterator[str]:
