@@ -111,7 +111,7 @@ def visited(browser, address):
 
 
 def changed(page, serving, load):
-    """The load changed: times, processor times until the verdict is drawn."""
+    """The load changed: times, processor times until the assessment is drawn."""
     client = page.context.new_cdp_session(page)
     client.send("Performance.enable")
     script = lambda: {one["name"]: one["value"] for one in client.send("Performance.getMetrics")["metrics"]}  # noqa: E731
@@ -123,14 +123,14 @@ def changed(page, serving, load):
     cuts = page.evaluate("window.treadloadTimes.section?.count ?? 0")
     field.press("Enter")
     page.wait_for_selector(f'#bench[data-ready="{count}"]')
-    page.wait_for_function("document.body.dataset.maps.endsWith(':verdict')")
+    page.wait_for_function("document.body.dataset.maps.endsWith(':damage')")
     after, now = serving.used(), script()
     page.wait_for_function("(were) => (window.treadloadTimes.section?.count ?? 0) > were", arg=cuts)
     spent = {f"processor, {name}": after[name] - before[name] for name in after}
     spent["processor, tab"] = now["TaskDuration"] - was["TaskDuration"]
     root = page.locator("#bench")
     solved = {f"solved, {name}": float(root.get_attribute(f"data-drawn-{name}"))
-              for name in ("contact", "response", "verdict")}  # fmt: skip
+              for name in ("contact", "response", "damage")}  # fmt: skip
     return {**times(page), **solved, **spent}
 
 
