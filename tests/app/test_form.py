@@ -9,6 +9,7 @@ import pytest
 import treadload.case
 from treadload.app.case_schema import CaseSchema
 from treadload.app.engines import Engines
+from treadload.app.field_errors import at_fields
 from treadload.app.form import Form
 from treadload.app.form_field import Field
 from treadload.app.form_parts import Absent, Choosing, Group, Rows, parts_in
@@ -246,6 +247,35 @@ def test_numbers_of_a_life_are_in_the_unit_of_their_field(tmp_path):
     assert shown["traffic.passes_per_year"] == "60000"
     assert shown["traffic.classes.0.axle_load"] == "70"
     assert shown["reliability.risks"] == "0.05, 0.5, 0.95"
+
+
+def errors_of(form, folder):
+    """Sentences by the path of their field, and those above the form."""
+    fields = fields_of(form)
+    return at_fields(form.check(folder).wrong, fields, {path: form.value(path) for path in fields})
+
+
+def test_a_wrong_axle_load_is_named_at_its_field(tmp_path):
+    """By the key that the case gives, in its unit; the load of a wheel is made of it."""
+    for number in (0, 1):
+        path = f"traffic.classes.{number}.axle_load"
+        placed, elsewhere = errors_of(typed(Form.first("life"), path, "-5"), tmp_path)
+        assert list(placed) == [path]
+        assert "Axle load of" in placed[path]
+        assert "must be a positive number of kN, got -5; a truck's axle carries 40 to 130" in placed[path]
+        assert elsewhere == []
+
+
+def test_a_sum_of_shares_is_named_at_each_of_the_shares(tmp_path):
+    form = Form.first("life")
+    classes = {f"traffic.classes.{number}.share" for number in (0, 1)}
+    maneuvers = {f"traffic.classes.1.maneuvers.{number}.share" for number in (0, 1)}
+    for path, wrong, total in (("traffic.classes.0.share", classes, "0.9"),
+                               ("traffic.classes.1.maneuvers.0.share", maneuvers, "0.6")):  # fmt: skip
+        placed, elsewhere = errors_of(typed(form, path, "0.5"), tmp_path)
+        assert set(placed) == wrong
+        assert all(f"must sum to 1, got {total}" in text for text in placed.values())
+        assert elsewhere == []
 
 
 def test_a_layer_is_chosen_among_those_of_the_road():

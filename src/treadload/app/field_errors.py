@@ -13,6 +13,7 @@ from treadload.units import quantity
 # Units that the reader writes as words.
 _WORDS = {"metres": "m", "metre": "m", "newtons": "N", "pascals": "Pa", "seconds": "s", "radians": "rad"}
 _NUMBER = re.compile(r"(?<![\w.'\"^/])(-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?![\w.'\"/]*[\w'\"/])( ?[^\s;,.)]+)?")
+_SHARES = re.compile(r"\bshares of (?:a |the )?(\w+).* must sum to 1\b")
 _GOT = re.compile(r"got (-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)")
 
 
@@ -27,10 +28,12 @@ def at_fields(
     placed: dict[str, list[str]] = {}
     elsewhere = []
     for key, text in wrong.items():
-        path = _nearest(key, fields) or _named_in(text, key, fields, values)
-        if path:
-            placed.setdefault(path, []).append(in_words_of(text, fields[path]))
-        else:
+        shares = _shares_of(text, key, fields)
+        path = "" if shares else _nearest(key, fields) or _named_in(text, key, fields, values)
+        paths = [path] if path else shares
+        for at in paths:
+            placed.setdefault(at, []).append(in_words_of(text, fields[at]))
+        if not paths:
             elsewhere.append(f"{key}: {text}" if key else text)
     return {path: "; ".join(texts) for path, texts in placed.items()}, elsewhere
 
@@ -58,6 +61,19 @@ def _named_in(text: str, table: str, fields: Mapping[str, Field], values: Mappin
     first = sorted(matches, key=lambda path: (text.index(_key(path)), path.count(".")))
     # Of several fields with one name none is meant more than the others.
     return first[0] if first and len([path for path in matches if _key(path) == _key(first[0])]) == 1 else ""
+
+
+def _shares_of(text: str, table: str, fields: Iterable[str]) -> list[str]:
+    """The fields of the shares whose sum a sentence is about: those of the first list below a table, or none."""
+    match = _SHARES.search(text)
+    if match is None:
+        return []
+    below = [
+        path for path in fields
+        if path.startswith(f"{table}." if table else "") and _key(path) == "share" and match[1] in path.split(".")
+    ]  # fmt: skip
+    least = min((path.count(".") for path in below), default=0)
+    return [path for path in below if path.count(".") == least]
 
 
 def _key(path: str) -> str:

@@ -13,7 +13,7 @@ from treadload.case.tire import TirePart
 from treadload.damage import AxleClass, Traffic, Wander
 from treadload.damage.frequency import LoadingFrequency
 from treadload.damage.laws.equivalence import STANDARD_AXLES, StandardAxle
-from treadload.errors import InputError, nearest
+from treadload.errors import InputError, nearest, positive
 from treadload.read import As, Table
 from treadload.units import Force, Length, PerYear, Pressure, Share, Speed, Years
 
@@ -65,6 +65,9 @@ class AxlePart(Table):
             raise ValueError(f"no gear {self.gear!r}; {nearest(self.gear, GEARS)}")
         if (self.axle_load is None) == (self.wheel_load is None):
             raise ValueError(f"{self.name!r} needs either axle_load or wheel_load")
+        if self.axle_load is not None:
+            # Its wheels' load is checked later, in a sentence about a key that the table does not give.
+            positive(f"axle_load of {self.name!r}", self.axle_load, "N", "a truck's axle carries 40e3 to 130e3")
         if self.wheels is not None:
             stray = {"gear", "dual_spacing", "wheelbase"} & self.model_fields_set
             if stray:
