@@ -126,6 +126,14 @@ def cross_obstacle(
     travel, m, ascending, moved to whole cells; left out, from clear of the obstacle to clear of it, every fourth
     cell. hold: "load" lets the axle rise and sink, "axle" keeps it at the height that the load gives on the plane z =
     0. Returns a history with its positions. Raises InputError, GeometryError and ConvergenceError as `solve_contact`.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.0)
+    >>> tl.contact.cross_obstacle(tire, road, wheel, tl.pavement.RoadStep(0.01), positions=[0.0, -0.1], spacing=0.006)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: positions must ascend by a cell of 6 mm or more, got 0 m and then -0.1 m; take
+    them further apart, or smaller cells
     """
     began = time.perf_counter()
     how = Numerics(**numerics)

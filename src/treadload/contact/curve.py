@@ -39,6 +39,12 @@ class CreepCurve(BaseResult, group="creep_curve"):
 
     dataset: over `creepage`: tractive_force, lateral_force, aligning_moment, slip_fraction and the other scalars
     of a contact. along: "x" or "y". contacts: the contact of every creepage, in the order given.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> curve = tl.contact.creep_curve(tire, road, wheel, [0.5], spacing=0.006)
+    >>> f"{curve.dataset.slip_fraction.item():.0%} of the contact slides"
+    '100% of the contact slides'
     """
 
     title: ClassVar[str] = "Creep curve"
@@ -96,6 +102,12 @@ def creep_curve(
     along: "x" for driving and braking, "y" for cornering. spacing, tolerance: as for `solve_contact`.
     Returns the curve in the order of the creepages. Raises InputError for creepages that are not numbers, and the
     errors of solve_contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> curve = tl.contact.creep_curve(tire, road, wheel, [0.5], spacing=0.006)
+    >>> f"{curve.dataset.tractive_force.item():.0f} N: the limit of friction"
+    '-70 N: the limit of friction'
     """
     values = finite_list(creepages, "creepages")
     if np.unique(values).size != values.size:

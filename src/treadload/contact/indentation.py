@@ -125,6 +125,14 @@ def solve_indentation(
     taken in parts, which are halved until peak pressure and largest plastic strain change by less than 1.5 %; what
     the last halving changed is in the result, and in a warning where 32 parts are too few. Raises InputError, and
     ConvergenceError with the residual reached.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> steel = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(210e9, 0.3))
+    >>> tl.contact.solve_indentation(steel, road, [100.0, 0.0])
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: an indentation needs a half-space that yields:
+    Pavement.half_space(ElastoPlastic(elastic, law))
     """
     start = time.perf_counter()
     tell = (lambda text: None) if progress is None else progress

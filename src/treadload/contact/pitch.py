@@ -186,6 +186,13 @@ def solve_pitch(
     fields at all positions. Raises InputError for a tire without blocks, sipes among them, GeometryError if the
     contact is larger than the surface, ConvergenceError if pitches do not come to repeat each other. Method: blocks
     by 3-D finite elements (`kernels.sections`), history by Kalker (1990), section 4.2.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> tl.contact.solve_pitch(tire, road, wheel)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: blocks stand on a belt: give belt, such as Belt.from_library("315/80R22.5")
     """
     began = time.perf_counter()
     keys: NumericsKeys = {"tolerance": _TOLERANCE, **numerics}

@@ -110,6 +110,14 @@ def solve_transient(
     Raises InputError for distances that run backwards or forces beyond friction, GeometryError if the contact
     is larger than the surface, ConvergenceError with the residual reached.
     Method: Kalker (1990), section 4.2: step by step, with the influence coefficients at the travelled distance.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> tl.contact.solve_transient(tire, road, wheel, distances=[0.02, 0.01], spacing=0.006)
+    Traceback (most recent call last):
+        ...
+    treadload.errors.InputError: distances must ascend from zero, got 0.01 m after 0.02 m; to roll backwards
+    turn the tire round
     """
     began = time.perf_counter()
     how = Numerics(**numerics)

@@ -115,6 +115,12 @@ def turn_on_the_spot(
     Returns torque, slip and work of friction over the angle, the torque at which everything slides, and the
     contact at the end. Raises as `solve_contact`.
     Method: Kalker (1990), section 1.5, without rolling; limits: Reissner & Sagoci (1944), Lubkin (1951).
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> turn = tl.contact.turn_on_the_spot(tire, road, wheel, angles=[0.5], spacing=0.006)
+    >>> f"{turn.dataset.sliding_torque.item():.2f} N m"
+    '0.62 N m'
     """
     began = time.perf_counter()
     how = Numerics(**numerics)

@@ -22,6 +22,10 @@ class FreeRolling:
     deflection: vertical, m. loaded_radius: from the axle to the road, m. effective_rolling_radius: V/ω, m.
     relaxation_length_x, relaxation_length_y: of slip along travel and of the slip angle, m; None where the file has
     no coefficients of them.
+
+    >>> state = tl.tire.FreeRolling(deflection=0.030, loaded_radius=0.470, effective_rolling_radius=0.490)
+    >>> f"{25.0 / state.effective_rolling_radius:.0f} rad/s at 25 m/s"
+    '51 rad/s at 25 m/s'
     """
 
     deflection: Array

@@ -69,6 +69,10 @@ class TireForces:
     tractive_force: N, along travel. lateral_force: N, to the right. aligning_moment: N m, about z (down).
     overturning_moment: N m, about x (ahead); rolling_resistance_moment: N m, positive when it resists; both None
     where the file has no coefficients of them.
+
+    >>> forces = tl.tire.TireForces(tractive_force=3e3, lateral_force=4e3, aligning_moment=50.0)
+    >>> f"{(forces.tractive_force**2 + forces.lateral_force**2) ** 0.5 / 10e3:.1f} of a load of 10 kN"
+    '0.5 of a load of 10 kN'
     """
 
     tractive_force: Array
