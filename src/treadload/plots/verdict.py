@@ -93,12 +93,6 @@ def fatigue_line(
     verdicts: one or several, with worst_strain, worst_passes and the attributes epsilon_6 and slope.
     labels: a name each. design_passes: traffic whose admissible strain is marked. ax: axes to draw into.
     Returns the figure. Raises InputError if labels and assessments differ in number or attributes are missing.
-
-    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
-    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[-0.05, 0.0, 0.05], y=[0.0])
-    >>> result = tl.assess(response, tl.FatigueLine(120e-6, -0.2), depth=0.15)
-    >>> tl.plots.fatigue_line(result).axes[0].get_ylabel()
-    'largest tensile strain (microstrain)'
     """
     cases = [fields_of(v, "worst_strain", "worst_passes") for v in _listed(verdicts)]
     names = list(labels) if labels is not None else [""] * len(cases)

@@ -72,6 +72,12 @@ def write_csv(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...]:
     table of a single group takes the path; others stand beside it with their names behind an underscore, so that
     "r.csv" of a case makes r_contact.csv, r_contact_scalars.csv, r_response.csv, ..., r_about.csv.
     Returns the files written, the main one first: all of them, or none. Raises InputError.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0])
+    >>> path = tl.results.write_csv(response, folder / "plate.csv")[0]
+    >>> f"{path.name}: a heading and {len(path.read_text(encoding='utf-8').splitlines()) - 1} points"
+    'plate.csv: a heading and 2 points'
     """
     check_suffix(path, TABLE, "tables")
     return write_all(csv_files(results, Path(path)))

@@ -31,6 +31,12 @@ def write_tractions(
     the rows form a full grid, x fastest. The header, lines that begin with "#", states axes, signs, units, the size
     of the cells, over each of which the stress is uniform, and the forces that the rows add up to. Returns the path.
     Raises InputError for unknown units, a contact without pressure, and uneven cells.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]] * 2, spacing=0.05)
+    >>> path = tl.results.write_tractions(tl.Footprint(patch), folder / "print.txt", units="mm")
+    >>> rows = [line.split() for line in path.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
+    >>> f"{sum(float(row[2]) for row in rows) * 50 * 50 / 1e3:.0f} kN"  # pressure, MPa, on cells of 50 mm
+    '8 kN'
     """
     check_suffix(path, TRACTIONS, "contact stresses")
     if units not in UNITS:

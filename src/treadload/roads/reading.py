@@ -29,6 +29,12 @@ def read_basins(
     hold what; left out, columns are found by their names: station, position [m], load [kN], D0 [µm], D300 [µm] and so
     on with the offset in mm, temperature [°C], thickness base [mm]. Raises InputError for what cannot be read, and a
     layout for a format that has its own.
+
+    >>> _ = (folder / "drops.csv").write_text('''load [kN],D0 [um],D300 [um],D900 [um]
+    ... 50,400,300,120''')
+    >>> basins = tl.roads.read_basins(folder / "drops.csv")
+    >>> f"{basins.compliance[0] * 1e9:.0f} µm per kN below the plate"
+    '8 µm per kN below the plate'
     """
     file = Path(path)
     if isinstance(layout, MovingLayout):

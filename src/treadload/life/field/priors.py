@@ -77,10 +77,6 @@ class Priors:
     wheels) stands for. missing_traffic: standard axles a year by the least thickness of the asphalt, m. deviation: of
     the wander, m. age: at which the asphalt is read, years. parts_of_day, daily_range: K, of the weather.
     thermal: whether daily thermal stress counts. spacing: of the contact's cells, m.
-
-    >>> priors = tl.life.Priors()
-    >>> f"{priors.mean_surface(12.0):.1f} °C at the surface where the air has 12 °C on average"
-    '14.7 °C at the surface where the air has 12 °C on average'
     """
 
     mix: str = "EB-BBSG3"
