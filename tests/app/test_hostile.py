@@ -41,7 +41,7 @@ FOUND = """() => ({
   ran: window.pwned ?? null,
   made: [...document.querySelectorAll('[data-evil], [onclick], [onerror], [onmouseover]')].map((e) => e.outerHTML),
   links: [...document.querySelectorAll('a')].map((one) => one.getAttribute('href') ?? one.getAttribute('xlink:href'))
-    .filter((one) => one && !/^\\.\\/(life|study|basins|take\\/\\w+\\/\\w+)?$/.test(one)),
+    .filter((one) => one && !/^\\.\\/(life|study|network|basins|take\\/\\w+\\/\\w+)?$/.test(one)),
   hidden: getComputedStyle(document.querySelector('#bench')).display === 'none',
 })"""
 
