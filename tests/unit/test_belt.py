@@ -331,7 +331,7 @@ def test_the_arc_of_a_tread_is_found_between_its_grooves():
 def test_belts_of_the_catalogue_are_those_of_the_defaults():
     known = tl.tire.Belt.from_library("315/80 R22.5")
     assert known is belts["315/80R22.5"]
-    assert replace(known, lateral=None, ribs=None, name="", source="", caveats=()) == tl.tire.Belt()
+    assert replace(known, lateral=None, ribs_poisson=None, name="", source="", caveats=()) == tl.tire.Belt()
     assert known.caveats
     assert "Project Chrono" in known.source
 
@@ -364,7 +364,7 @@ def test_a_case_names_its_belt(tmp_path):
         tl.Case.from_text(text.format(belt='belt = "315/80R22.5"').replace('inflation_pressure = "8.2 bar"', ""))
 
 
-@pytest.mark.parametrize("name", [name for name in belts if belts[name].ribs is not None])
+@pytest.mark.parametrize("name", [name for name in belts if belts[name].ribs_poisson is not None])
 def test_ribs_on_a_belt_of_the_catalogue_are_of_rubber_and_a_layer_is_not(name):
     profile = f"{name} tread" if name == "335/65R22.5" else name
     layer = tl.Tire.from_profile(profile, inflation_pressure=8e5, belt=belts[name])
@@ -372,4 +372,13 @@ def test_ribs_on_a_belt_of_the_catalogue_are_of_rubber_and_a_layer_is_not(name):
     assert layer.belt.tread.poisson == belts[name].tread.poisson < 0.48
     assert ribs.belt.tread.poisson == 0.495
     assert not [text for text in of_tire(ribs) if "Poisson" in text]
-    assert any("Poisson" in text for text in of_tire(replace(ribs, belt=replace(belts[name], ribs=None))))
+    assert any("Poisson" in text for text in of_tire(replace(ribs, belt=replace(belts[name], ribs_poisson=None))))
+    # Rubber that is given keeps its modulus, and its Poisson's ratio if that is of rubber.
+    for given, taken in ((tl.Elastic(7e6, 0.46), (7e6, 0.495)), (tl.Elastic(7e6, 0.499), (7e6, 0.499))):
+        tread = replace(ribs, belt=replace(belts[name], tread=given)).belt.tread
+        assert (tread.modulus, tread.poisson) == taken
+
+
+def test_a_poisson_ratio_of_ribs_is_that_of_rubber():
+    with pytest.raises(InputError, match=r"ribs_poisson must be at least 0.49 and below 0.5, .* got 0.3"):
+        tl.tire.Belt(ribs_poisson=0.3)

@@ -52,7 +52,7 @@ def of_tire(tire: Tire) -> list[str]:
     if tire.tread == "ribs" and tire.belt is not None and tire.belt.tread.poisson < _RUBBER:
         warnings.append(
             f"the ribs have a Poisson's ratio of {tire.belt.tread.poisson:g}, as of a layer that stands for grooves "
-            f"as well; rubber has {_RUBBER:g} to 0.4999: give the belt ribs = Elastic(modulus, 0.495)"
+            f"as well; rubber has {_RUBBER:g} to 0.4999: give the belt ribs_poisson = 0.495"
         )
     section = tire.cross_section if tire.tread == "ribs" else None
     if section is not None and tire.belt is not None:

@@ -366,7 +366,7 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
     if poisson < _RUBBER:
         warnings.append(
             f"the blocks have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; "
-            f"rubber has {_RUBBER:g} to 0.4999: give the belt ribs = Elastic(modulus, 0.495)"
+            f"rubber has {_RUBBER:g} to 0.4999: give the belt ribs_poisson = 0.495"
         )
     if window.pattern.is_joined:
         warnings.append(

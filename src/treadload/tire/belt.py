@@ -16,11 +16,13 @@ from treadload.materials import Elastic, Prony
 from treadload.named import Catalogue, read_tables
 from treadload.tire.modulus import unlike_a_truck
 from treadload.tire.ribs import RibGroup
-from treadload.units import BendingStiffness, Length, PerLength, Pressure, Radius, Stiffness, quantity
+from treadload.units import BendingStiffness, Length, Number, PerLength, Pressure, Radius, Stiffness, quantity
 
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
 _THINNEST, _THICKEST = 1e-3, 1.0
 TREAD = Elastic(5.5e6, 0.47)
+# Poisson's ratio of rubber is at least so large; a layer that stands for grooves as well has less.
+RUBBER = 0.49
 
 
 @dataclass(frozen=True)
@@ -51,9 +53,8 @@ class Belt:
     """A tread layer bonded to a tensioned, bending belt on sidewalls.
 
     tread: of the layer between the road and the belt, elastic or, for steady rolling, viscoelastic.
-    ribs: rubber of ribs and blocks with free sides, which a tire with tread = "ribs" takes in place of tread; left
-    out, that of tread. A layer without grooves has a smaller Poisson's ratio than its rubber, as it stands for ribs
-    that bulge into their grooves as well.
+    ribs_poisson: Poisson's ratio of ribs and blocks with free sides, where tread has that of a layer, below 0.49;
+    left out, that of tread. A layer without grooves has less than rubber, as it stands for ribs that bulge as well.
     tread_thickness: m, ribs and undertread. foundation: what the sidewalls hold against a deflection of the belt, per
     unit of inflation pressure, 1/m; sidewall_stiffness: the part without inflation, Pa/m.
     meridional: tension across per inflation pressure, m: (ρ² - ρ_w²)/(2ρ) of the crown's and the widest radius.
@@ -82,7 +83,7 @@ class Belt:
     crown_radius: Radius | None = None
     belt_radius: Radius | None = None
     lateral: LateralBelt | None = None
-    ribs: Elastic | Prony | None = None
+    ribs_poisson: Number | None = None
     name: str = ""
     source: str = field(default="", repr=False)
     caveats: tuple[str, ...] = field(default=(), repr=False)
@@ -92,8 +93,11 @@ class Belt:
         object.__setattr__(self, "caveats", tuple(self.caveats))
         if not isinstance(self.tread, Elastic | Prony):
             raise InputError(f"belt: the tread must be an Elastic or a Prony, got {self.tread!r}")
-        if self.ribs is not None and not isinstance(self.ribs, Elastic | Prony):
-            raise InputError(f"belt: the ribs must be an Elastic or a Prony, got {self.ribs!r}")
+        if self.ribs_poisson is not None and not RUBBER <= self.ribs_poisson < 0.5:
+            raise InputError(
+                f"belt: ribs_poisson must be at least {RUBBER:g} and below 0.5, as of rubber, got "
+                f"{self.ribs_poisson:g}"
+            )
         if not _THINNEST <= self.tread_thickness <= _THICKEST:
             raise InputError(
                 f"belt: tread_thickness must lie between {_THINNEST * 1e3:g} mm and {_THICKEST:g} m, got "
@@ -135,12 +139,16 @@ class Belt:
         return belts[name]
 
     def under_ribs(self) -> Belt:
-        """The belt whose tread is the rubber of ribs and blocks.
+        """The belt whose tread has the Poisson's ratio of ribs and blocks, where it has that of a layer.
 
-        >>> Belt.from_library("315/80R22.5").under_ribs().tread.poisson
-        0.495
+        >>> Belt.from_library("315/80R22.5").under_ribs().tread
+        Elastic(modulus=5.5e6, poisson=0.495)
         """
-        return self if self.ribs is None else replace(self, tread=self.ribs, ribs=None)
+        if self.ribs_poisson is None:
+            return self
+        is_layer = self.tread.poisson < RUBBER
+        tread = replace(self.tread, poisson=self.ribs_poisson) if is_layer else self.tread
+        return replace(self, tread=tread, ribs_poisson=None)
 
     def worn(self, wear: float | str) -> Belt:
         """The belt below a tread that `wear`, m, has been worn off: thickness and arm are smaller by it.

@@ -241,7 +241,10 @@ class Priors:
 
     def contacts(self) -> Contacts:
         """The tire with ribs on its belt, none of its contacts solved yet."""
-        tire = Tire.from_profile(self.tire, belt=Belt.from_library(self.tire), tread="ribs")
+        # Shipped predictions were solved with the Poisson's ratio of the belt's layer; with 0.495 of rubber the damage
+        # a year of ten sections of LTPP is 0.5 to 6 % smaller.
+        belt = replace(Belt.from_library(self.tire), ribs_poisson=None)
+        tire = Tire.from_profile(self.tire, belt=belt, tread="ribs")
         return Contacts(tire, self.spacing)
 
     def key(self, section: RoadSection) -> str:
