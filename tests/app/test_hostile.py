@@ -119,7 +119,9 @@ def anew(one):
 
 def refused(one, button, name, text):
     """Give a file that is refused, and wait for the sentence."""
-    said = "(document.querySelector('#problems .problem')?.innerText ?? '')"
+    # Above all fields, or at the field that the sentence names.
+    places = "'#problems .problem, .q-field--error .q-field__messages'"
+    said = f"[...document.querySelectorAll({places})].map((place) => place.innerText).join()"
     before = one.page.evaluate(said)
     given(one, button, name, text)
     one.page.wait_for_function(f"(was) => {said} && {said} !== was", arg=before)

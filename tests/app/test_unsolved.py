@@ -70,7 +70,7 @@ def test_what_is_not_solved_stands_above_the_numbers(visit):
         {**Form.first().table, "spacing": "16 mm", "crossing": {"joint": {"width": "18 mm", "depth": "30 mm"}}}
     )
     visit.chosen("open a TOML …", {"name": "a.toml", "mimeType": "text/plain", "buffer": crossing.encode()})
-    note = visit.page.locator("#verdict > #unsolved:first-child")
+    note = visit.page.locator("#verdict > #card + #unsolved")
     note.wait_for()
     assert note.inner_text().startswith("This page did not solve [crossing]. Take the TOML home and run `treadload")
     assert note.bounding_box()["y"] < visit.page.locator("[data-row=normal_load]").bounding_box()["y"]
