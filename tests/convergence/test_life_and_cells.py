@@ -152,9 +152,10 @@ def test_years_hardly_move_with_the_cells(tire, maneuver, bound):
     assert coarse == pytest.approx(fine, rel=bound)
 
 
-# Measured against 0.75 mm: 18.9 and 8.5 % in the turn, 8.7 and 1.0 % braked.
+# Measured against 0.75 mm: 18.1 and 2.7 % in the turn (8.5 % before cells under a side force were divided), 8.7 and
+# 1.0 % braked. What is left is the contact: the load of the 3 mm cells, read on cells of 0.75 mm, gives 2.3 %.
 @pytest.mark.slow
-@pytest.mark.parametrize(("spacing", "stated"), [(6e-3, "19 %"), (3e-3, "9 %")])
+@pytest.mark.parametrize(("spacing", "stated"), [(6e-3, "19 %"), (3e-3, "3 %")])
 def test_a_life_states_the_error_of_its_cells_under_a_side_force(spacing, stated):
     coarse = life(ribs(), TURNED, spacing)
     (text,) = [text for text in coarse.warnings if "depend on the cells" in text]

@@ -10,15 +10,13 @@ from treadload.damage.criterion import Criterion
 from treadload.damage.rib_sides import SHALLOW, sides_in_words
 from treadload.damage.traffic import Traffic
 from treadload.life.seasons import Warm, beyond_data
-from treadload.life.wheels import Wheels
+from treadload.life.wheels import SIDE_FORCE, Wheels
 from treadload.pavement import Pavement
 from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
 
-# Part of the load from which on a side force narrows what is tensile to strips of a few millimetres.
-_SIDE_FORCE = 0.05
 # Largest change of years from cells, m, to those of 0.75 mm, measured under ribs that turn.
-_CELL_ERRORS = {1.5e-3: 0.06, 3e-3: 0.09, 6e-3: 0.19}
+_CELL_ERRORS = {1.5e-3: 0.01, 3e-3: 0.03, 6e-3: 0.19}
 
 
 def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
@@ -69,7 +67,7 @@ def cell_caveats(road: Pavement, criteria: Sequence[Criterion], traffic: Traffic
     It was measured, see `docs/notes/cells_and_means.md`, and is not computed from the life.
     """
     near = [criterion for criterion in criteria if criterion.mean_over and min(criterion.depths(road)) < SHALLOW]
-    pushed = [row.name for row in traffic.classes if abs(row.maneuver.lateral) > _SIDE_FORCE]
+    pushed = [row.name for row in traffic.classes if abs(row.maneuver.lateral) > SIDE_FORCE]
     if not near or not pushed:
         return ()
     cells = next((cell for cell in sorted(_CELL_ERRORS) if spacing < 1.01 * cell), max(_CELL_ERRORS))

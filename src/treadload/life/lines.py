@@ -48,9 +48,10 @@ class Plane:
 
 @dataclass(frozen=True, eq=False)
 class Lines:
-    """Across travel: rows that are solved near the wheels, of y, m; and lines in order, those of a basin among them.
+    """Across travel: rows that are solved near the wheels, and lines in order, those of a basin among them.
 
-    order: of the near rows and the basin's, one after the other. places: of the lines, m. nearest: line of each y.
+    rows: of the near field, m. order: of these and the basin's, one after the other. places: of the lines, m.
+    nearest: line of each y.
     core: y near the wheels, with strips where readings take them; onto_core (core, rows) makes their values of those
     on the rows. evaluated: m, where cycles are counted, the core's and the basin's lines, ordered among the two.
     """
@@ -67,18 +68,18 @@ class Lines:
     ordered: Any
 
     @classmethod
-    def of(cls, plane: Plane, wheels: Wheels, rows: IntArray, y: Array, basin: Basin | None) -> Lines:
-        """With strips where means near the surface are read."""
+    def of(cls, plane: Plane, wheels: Wheels, rows: Array, y: Array, basin: Basin | None) -> Lines:
+        """With strips where means near the surface are read. rows: see `rows_of`."""
         fine = plane.mean_over is not None and wheels.cell <= plane.mean_over and not plane.stride
-        places = y[rows] if basin is None else np.concatenate([y[rows], basin.rows])
+        places = rows if basin is None else np.concatenate([rows, basin.rows])
         order = np.argsort(places, kind="stable")
-        near = nearest_of(y[rows], y)
-        core = np.flatnonzero(np.abs(y[rows][near] - y) <= wheels.cell) if plane.wide else np.arange(len(y))
-        strips = Strips.of(y[rows], y[core]) if fine else None
+        near, parts = nearest_of(rows, y), parts_of(wheels, plane)
+        core = np.flatnonzero(np.abs(rows[near] - y) <= wheels.cell / parts) if plane.wide else np.arange(len(y))
+        strips = Strips.of(rows, y[core], narrow=wheels.has_side_force) if fine else None
         evaluated = y[core] if basin is None else np.concatenate([y[core], basin.rows])
         # Beside wide cells a line of the basin may lie on one of the core, which is kept.
         lines, ordered = np.unique(np.round(evaluated, 9), return_index=True)
-        onto = straight(y[rows], y[core])
+        onto = straight(rows, y[core])
         nearest = nearest_of(places[order], y)
         return cls(rows, y, order, places[order], nearest, core, strips, onto, lines, ordered)
 
@@ -124,10 +125,15 @@ def along(wheels: Wheels, plane: Plane) -> Array:
     return np.unique(np.round(np.concatenate(places), 9))
 
 
-def rows_of(wheels: Wheels, y: Array, plane: Plane) -> IntArray:
-    """Which values of y to solve: every cell under and beside a wheel; few elsewhere, and everywhere at depth.
+def parts_of(wheels: Wheels, plane: Plane) -> int:
+    """Into how many rows each cell is divided: where means near the surface are evaluated, see `Wheels.parts`."""
+    return wheels.parts if plane.wide and plane.mean_over is not None and wheels.cell <= plane.mean_over else 1
 
-    None further than the margin from the wheels.
+
+def rows_of(wheels: Wheels, y: Array, plane: Plane) -> Array:
+    """The rows to solve, m: of y every cell under and beside a wheel; few elsewhere, and everywhere at depth.
+
+    None further than the margin from the wheels. Where cells are divided, see `parts_of`, a row in each part.
     """
     cells = np.arange(0, len(y), round(wheels.cell / (y[1] - y[0])))
     wanted, reached = np.zeros((2, len(cells)), dtype=bool)
@@ -141,4 +147,9 @@ def rows_of(wheels: Wheels, y: Array, plane: Plane) -> IntArray:
     wanted &= reached
     if not plane.wide and reached[-1]:
         wanted[-1] = True
-    return cells[wanted]
+    rows, parts = y[cells[wanted]], parts_of(wheels, plane)
+    if parts == 1:
+        return rows
+    within = wheels.cell * ((np.arange(parts) + 0.5) / parts - 0.5)
+    divided: Array = (rows[:, None] + within).ravel()
+    return divided

@@ -18,7 +18,7 @@ from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
 from treadload.life.followed import Followed, power_of
-from treadload.life.lines import Lines, Plane, along, rows_of
+from treadload.life.lines import Lines, Plane, along, parts_of, rows_of
 from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels
@@ -112,8 +112,8 @@ def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
     """
     alike: dict[Any, list[int]] = {}
     for number, task in enumerate(tasks):
-        grids = tuple(load.grid for load in task.wheels.loads)
-        alike.setdefault((grids, task.speed, float(task.y[0]), len(task.y), task.reach), []).append(number)
+        cells = (tuple(load.grid for load in task.wheels.loads), task.wheels.has_side_force)
+        alike.setdefault((cells, task.speed, float(task.y[0]), len(task.y), task.reach), []).append(number)
     parts: list[list[int]] = []
     for members in alike.values():
         first = tasks[members[0]]
@@ -152,7 +152,7 @@ def _pass(
     """Into results what criteria, by number of each task, read in a plane; those whose largest is on its border."""
     wheels, y, turns = tasks[0].wheels, tasks[0].y, tasks[0].turns
     x, rows = along(wheels, plane), rows_of(wheels, y, plane)
-    basin = Basin.of(wheels, y, y[rows], tasks[0].reach) if plane.wide else None
+    basin = Basin.of(wheels, y, rows, tasks[0].reach) if plane.wide else None
     lines = Lines.of(plane, wheels, rows, y, basin)
     several = [(tasks[number], numbers) for number, numbers in members.items()]
     far: Sequence[xr.Dataset | None] = [None] * len(several)
@@ -160,9 +160,7 @@ def _pass(
         far = _solved(several, plane, basin.x, basin.y, basin=True)
     worst: list[Worst] = []
     again: dict[int, list[int]] = {}
-    for (number, numbers), data, beyond in zip(
-        members.items(), _solved(several, plane, x, y[rows]), far, strict=True
-    ):
+    for (number, numbers), data, beyond in zip(members.items(), _solved(several, plane, x, rows), far, strict=True):
         task, levels = tasks[number], list(data["depth"].to_numpy())
         around = None if basin is None or beyond is None else basin.lines(beyond)
         for k in numbers:
@@ -189,10 +187,10 @@ def near_and_far(task: Passing, number: int) -> tuple[Lines, Basin, tuple[xr.Dat
         return None
     wheels, y = task.wheels, task.y
     rows = rows_of(wheels, y, plane)
-    basin = Basin.of(wheels, y, y[rows], task.reach)
+    basin = Basin.of(wheels, y, rows, task.reach)
     lines, several = Lines.of(plane, wheels, rows, y, basin), [(task, [number])]
     (beyond,) = _solved(several, plane, basin.x, basin.y, basin=True)
-    (near,) = _solved(several, plane, along(wheels, plane), y[rows])
+    (near,) = _solved(several, plane, along(wheels, plane), rows)
     away, outside = basin.lines(beyond)
     return lines, basin, (near, outside, away)
 
@@ -224,7 +222,9 @@ def _loads(wheels: Wheels, plane: Plane, *, basin: bool) -> list[SurfaceLoad]:
     """Wheels as what is read needs them: on coarse cells around them, where the class has them deep down."""
     if basin:
         return wheels.coarse
-    return wheels.deep if plane.stride else wheels.joined
+    if plane.stride:
+        return wheels.deep
+    return wheels.near_surface if parts_of(wheels, plane) > 1 else wheels.joined
 
 
 def _read(
@@ -240,7 +240,7 @@ def _read(
     deepest, read = by_depth.argmax(axis=0), by_depth.max(axis=0)
     x, centres = data["x"].to_numpy(), task.wheels.x.mean(axis=1)
     at, power = {"centres": centres, "turns": 2 * len(centres) - 1}, power_of(criterion)
-    rows = lines.y[lines.rows]
+    rows = lines.rows
     if lines.strips is not None:
         peaks = over_strips(lines.strips, x, uncut, margin, power=power, **at)
     else:

@@ -21,6 +21,8 @@ _RIVAL = 0.8
 # Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
 # a hundredth of its damage.
 _LINES, _FAINT = 4, 0.3
+# Lines in a strip where tension may be left in a few millimetres across travel.
+_MANY_LINES = 64
 # Columns whose reading is at least this part of a row's largest, and so many beside them, are looked at between rows.
 _NEAR_LARGEST, _BESIDE = 0.6, 4
 # Points that are looked at together.
@@ -44,9 +46,10 @@ class Strips:
     weights: Array
 
     @classmethod
-    def of(cls, rows: Array, y: Array) -> Strips:
-        """Of rows and y, m; those at the borders end there."""
-        within = (y[1] - y[0]) * ((np.arange(_LINES) + 0.5) / _LINES - 0.5)
+    def of(cls, rows: Array, y: Array, *, narrow: bool = False) -> Strips:
+        """Of rows and y, m; those at the borders end there. narrow: where tension is left in a few millimetres."""
+        count = _MANY_LINES if narrow else _LINES
+        within = (y[1] - y[0]) * ((np.arange(count) + 0.5) / count - 0.5)
         lines = np.clip(y[:, None] + within, rows[0], rows[-1])
         columns, weights = onto_lines(rows, lines.ravel())
         shape = (*lines.shape, 4)
@@ -130,7 +133,8 @@ def over_strips(
             None if margin is None else margin[..., window].astype(np.float32),
         )
         # So many at a time that what is made of them stays in the cache.
-        step = max(1, _BLOCK // (_LINES * (window.stop - window.start)))
+        count = strips.columns.shape[1]
+        step = max(1, _BLOCK // (count * (window.stop - window.start)))
         for start in range(0, len(wanted), step):
             batch = wanted[start : start + step]
             onto = strips.onto(batch)
@@ -142,7 +146,7 @@ def over_strips(
                 turns=1,
                 smooth=True,
             )
-            lines = (extremes[0] / largest).reshape(len(batch), _LINES)
+            lines = (extremes[0] / largest).reshape(len(batch), count)
             result[2 * axle, batch] = largest * (lines**power).mean(axis=1) ** (1 / power)
     return result
 

@@ -114,6 +114,12 @@ def _divided(load: GridLoad, most: float) -> GridLoad:
     if load.interpolation == "bilinear" or max(grid.dx, grid.dy) <= most:
         return load
     nx, ny = (2 * math.ceil(0.5 * (step / most - 1)) + 1 if step > most else 1 for step in (grid.dx, grid.dy))
+    return divided(load, nx, ny)
+
+
+def divided(load: GridLoad, nx: int, ny: int) -> GridLoad:
+    """The same load with each cell, uniformly loaded, divided into nx parts along travel and ny across."""
+    grid = load.grid
     parts = load.array.repeat(ny, axis=1).repeat(nx, axis=2)
     dx, dy = grid.dx / nx, grid.dy / ny
     x0, y0 = grid.x0 - 0.5 * (nx - 1) * dx, grid.y0 - 0.5 * (ny - 1) * dy
