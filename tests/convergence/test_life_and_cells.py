@@ -1,13 +1,17 @@
 """The life under the default reading does not move with the cells of the contact."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
+import xarray as xr
 
 import treadload as tl
 from treadload.damage.climate import Climate
 from treadload.life import solve_life
+from treadload.life.solve import solve_sum
+from treadload.life.wheels import state
 from treadload.tire import LateralGrooves
 
 LINE = tl.FatigueLine(120e-6, -0.2)
@@ -118,14 +122,18 @@ def test_the_worst_place_beside_the_end_of_tension_is_found_from_any_points():
     assert strains[0] == pytest.approx(strains[1], rel=2e-3)
 
 
-def life(tire, maneuver, spacing):
-    """Of the surface under an axle that wanders, on layers."""
+def design(tire, maneuver, spacing):
+    """The surface of layers under an axle that wanders."""
     layers = [tl.Layer(tl.Elastic(5.4e9, 0.35), 0.06), tl.Layer(tl.Elastic(9e9, 0.35), 0.15)]
     road = tl.Pavement([*layers, tl.Layer(tl.Elastic(1.2e8, 0.35))])
     axle = tl.damage.AxleClass("one", 1.0, 32.5e3, 820e3, maneuver=maneuver)
     traffic = tl.damage.Traffic((axle,), 1e5, wander=tl.damage.Wander.normal(0.25))
     surface = (tl.damage.Criterion("surface", LINE, place="top"),)
-    return solve_life(tl.Design(tire, road, traffic, Climate.constant(15.0), surface, spacing=spacing), workers=1)
+    return tl.Design(tire, road, traffic, Climate.constant(15.0), surface, spacing=spacing)
+
+
+def life(tire, maneuver, spacing):
+    return solve_life(design(tire, maneuver, spacing), workers=1)
 
 
 def years(tire, maneuver, spacing):
@@ -135,15 +143,16 @@ def years(tire, maneuver, spacing):
 # Where tension ends, and the reading with it, a parabola through the last point and the nothing beside it stood up to
 # an eighth above the last reading, a life too short by up to 45 %; and lines a cell apart met such ends by chance.
 # Both depended on the cells: up to 58 % of a life. Measured now, braked and turned: scan 3.0 and 4.1, ribs 1.3 and
-# 2.6, lugs 8.1 and 6.5 %. In a turn strips a few millimetres wide do the damage; slanted lugs are stairs of cells.
+# 2.3, lugs 8.1 and 0.5 %. In a turn strips a few millimetres wide do the damage; slanted lugs are stairs of cells.
 BRAKED, TURNED = tl.contact.Maneuver.braking(5.0), tl.contact.Maneuver.turning(12.0, 20 / 3.6)
+PUSHED = tl.contact.Maneuver(lateral=0.25)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("tire", "maneuver", "bound"),
     [
-        (scan, BRAKED, 0.05), (scan, TURNED, 0.05), (ribs, BRAKED, 0.03), (ribs, TURNED, 0.1), (lugs, BRAKED, 0.1),
+        (scan, BRAKED, 0.05), (scan, TURNED, 0.05), (ribs, BRAKED, 0.03), (ribs, TURNED, 0.03), (lugs, BRAKED, 0.1),
         (lugs, TURNED, 0.1),
     ],
 )  # fmt: skip
@@ -152,17 +161,49 @@ def test_years_hardly_move_with_the_cells(tire, maneuver, bound):
     assert coarse == pytest.approx(fine, rel=bound)
 
 
-# Measured against 0.75 mm: 18.1 and 2.7 % in the turn (8.5 % before cells under a side force were divided), 8.7 and
-# 1.0 % braked. What is left is the contact: the load of the 3 mm cells, read on cells of 0.75 mm, gives 2.3 %.
+# Measured against 0.75 mm: 18.1 and 2.7 % in the turn (18.9 and 8.5 % before cells under a side force were divided),
+# 5.6 % under a side force of 0.25. What is left is the contact, see the next test.
 @pytest.mark.slow
-@pytest.mark.parametrize(("spacing", "stated"), [(6e-3, "19 %"), (3e-3, "3 %")])
-def test_a_life_states_the_error_of_its_cells_under_a_side_force(spacing, stated):
-    coarse = life(ribs(), TURNED, spacing)
+@pytest.mark.parametrize(
+    ("maneuver", "spacing", "stated", "bound"),
+    [(TURNED, 6e-3, "19 %", 0.19), (TURNED, 3e-3, "6 %", 0.03), (PUSHED, 3e-3, "6 %", 0.06)],
+)
+def test_a_life_states_the_error_of_its_cells_under_a_side_force(maneuver, spacing, stated, bound):
+    coarse = life(ribs(), maneuver, spacing)
     (text,) = [text for text in coarse.warnings if "depend on the cells" in text]
     assert f"cells of {1e3 * spacing:g} mm by up to {stated}" in text
     assert "surface: a side force (one)" in text
-    error = abs(float(coarse.years("surface")) / years(ribs(), TURNED, 0.75e-3) - 1)
-    assert error < float(stated[:-2]) / 100 + 0.005
+    assert float(coarse.years("surface")) == pytest.approx(years(ribs(), maneuver, 0.75e-3), rel=bound)
+
+
+# Measured: 0.4 % in the turn, 0.1 % under the side force; 4.7 and 2.6 % where the coarser load has four lines in a
+# strip and its mean is taken on cells of 3 mm.
+@pytest.mark.slow
+@pytest.mark.parametrize("maneuver", [TURNED, PUSHED])
+def test_the_load_of_a_contact_under_a_side_force_reads_the_same_on_finer_cells(maneuver):
+    """The tractions of 3 mm cells on cells of 0.75 mm: the same load, whose years must not depend on the division."""
+    contact = tl.solve_contact(ribs(), HALF, maneuver.rolling(32.5e3, 0.7, speed=20 / 3.6), spacing=3e-3)
+    coarse, fine = (years_under(divided(contact.dataset, parts), maneuver) for parts in (1, 4))
+    assert coarse == pytest.approx(fine, rel=0.01)
+
+
+def divided(data, parts):
+    """A contact's tractions on cells divided into so many parts each way."""
+    steps = {name: float(data.attrs[f"d{name}"]) for name in ("x", "y")}
+    within = (np.arange(parts) + 0.5) / parts - 0.5
+    at = {name: (data[name].to_numpy()[:, None] + step * within).ravel() for name, step in steps.items()}
+    fields = {
+        name: (("y", "x"), np.kron(data[name].to_numpy(), np.ones((parts, parts))))
+        for name in ("pressure", "traction_x", "traction_y")
+    }
+    return xr.Dataset(fields, at, {**data.attrs, "dx": steps["x"] / parts, "dy": steps["y"] / parts})
+
+
+def years_under(data, maneuver):
+    """Years at the surface under a given contact, see `design`."""
+    question = design(ribs(), maneuver, float(data.attrs["dx"]))
+    question.contacts.solved[state(question.traffic.classes[0])] = SimpleNamespace(dataset=data)
+    return float(solve_sum(question, workers=1).life.years("surface"))
 
 
 def test_a_life_of_wheels_that_roll_straight_has_no_such_caveat():

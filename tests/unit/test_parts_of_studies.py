@@ -1,6 +1,7 @@
 """The parts of a life and of a case on their own: where is read, what is solved, what stands between."""
 
 import math
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -133,6 +134,27 @@ def test_rows_are_every_cell_beside_wheels_and_few_elsewhere(wheels, y):
     far = near[near > 0.1733 + 4 * DY + 0.07]
     assert np.diff(far)[:-1] == pytest.approx(2 * DY)
     assert np.diff(deep)[:-1] == pytest.approx(2 * DY)
+
+
+def test_cells_of_wheels_with_a_side_force_are_divided_across_travel_near_the_surface(y):
+    """Each cell of 12 mm into 8 parts of 1.5 mm with a row each; the same force, at the same place."""
+    row = replace(TRIDEM, maneuver=tl.contact.Maneuver(lateral=0.06))
+    pushed, straight = wheels_of([contact()], row, y), wheels_of([contact()], TRIDEM, y)
+    assert (pushed.parts, straight.parts) == (8, 1)
+    assert straight.near_surface is straight.joined
+    # A mean over 20 mm, as one over 10 mm is less than these wide cells.
+    plane = Plane(0, "above", 0.02, wide=True)
+    rows, cells = rows_of(pushed, y, plane), rows_of(straight, y, plane)
+    np.testing.assert_allclose(rows.reshape(-1, 8).mean(axis=1), cells, atol=1e-12)
+    np.testing.assert_allclose(np.diff(rows.reshape(-1, 8), axis=1), 1.5e-3, rtol=1e-9)
+    fine, coarse = pushed.near_surface, pushed.joined
+    for force in ("normal_load", "tractive_force"):
+        expected = sum(getattr(load, force) for load in coarse)
+        assert sum(getattr(load, force) for load in fine) == pytest.approx(expected, rel=1e-12)
+    assert [load.extent_y for load in fine] == [pytest.approx(load.extent_y) for load in coarse]
+    # Points, depths below the surface and means over less than a cell keep the cells.
+    for other in (Plane(0, "above", None, wide=True), Plane(2, "above", None), Plane(0, "above", 0.01, wide=True)):
+        np.testing.assert_array_equal(rows_of(pushed, y, other), rows_of(straight, y, other))
 
 
 def test_fields_between_rows_are_cubic_where_rows_are_even_and_straight_elsewhere():

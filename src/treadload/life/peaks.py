@@ -21,7 +21,7 @@ _RIVAL = 0.8
 # Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
 # a hundredth of its damage.
 _LINES, _FAINT = 4, 0.3
-# Lines in a strip where tension may be left in a few millimetres across travel.
+# Lines in a strip where tension may be left in a few millimetres across travel: years within 0.1 % of 256 lines.
 _MANY_LINES = 64
 # Columns whose reading is at least this part of a row's largest, and so many beside them, are looked at between rows.
 _NEAR_LARGEST, _BESIDE = 0.6, 4

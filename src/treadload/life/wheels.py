@@ -30,7 +30,7 @@ MARGIN = 0.3
 # Readings stand at least this close to each other across travel, m: a fifth of the length they are averaged over.
 _BETWEEN = 2e-3
 # Where a side force leaves tension in strips of a few millimetres, cells are divided across travel to this size, m,
-# before their mean near the surface is taken: a reading within 1 % of the years of cells of 0.75 mm, see
+# before their mean near the surface is taken: years within 0.4 % of those of the same load on cells of 0.75 mm, see
 # `docs/notes/cells_and_means.md`.
 _EVALUATED_CELL = 1.5e-3
 SIDE_FORCE = 0.05
