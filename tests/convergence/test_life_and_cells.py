@@ -176,8 +176,7 @@ def test_a_life_states_the_error_of_its_cells_under_a_side_force(maneuver, spaci
     assert float(coarse.years("surface")) == pytest.approx(years(ribs(), maneuver, 0.75e-3), rel=bound)
 
 
-# Measured: 0.4 % in the turn, 0.1 % under the side force; 4.7 and 2.6 % where the coarser load has four lines in a
-# strip and its mean is taken on cells of 3 mm.
+# Measured: 0.4 % in the turn, 0.1 % under the side force; 3.0 and 1.5 % where cells of 3 mm are not divided.
 @pytest.mark.slow
 @pytest.mark.parametrize("maneuver", [TURNED, PUSHED])
 def test_the_load_of_a_contact_under_a_side_force_reads_the_same_on_finer_cells(maneuver):
