@@ -6,6 +6,7 @@ figures (`plots/kit/us_figure.py`) are shown in the units that are asked for her
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -14,7 +15,6 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from treadload.errors import InputError, nearest
-from treadload.variables import SCALES
 
 SYSTEMS = ("si", "us")
 _system: ContextVar[str] = ContextVar("treadload_display_units", default="si")
@@ -89,10 +89,6 @@ _LARGE = 10.0
 
 # Units that a sentence may have and that stay; they are longer than one of the table, and not to be taken for it.
 _STAY = ("J/m", "kJ/mol", "J/mol", "W/(m K)", "MJ/(m³ K)", "m/s²", "m/s", "kN/m³", "MPa s", "Pa s")
-_SIZES: Mapping[str, float] = MappingProxyType({
-    **{unit: 1 / scale for unit, scale in SCALES.items()}, "cm": 1e-2, "km": 1e3, "kN m/rad": 1e3, "N m/rad": 1.0,
-})  # fmt: skip
-"""SI unit of a sentence → its size."""
 _OF_SENTENCES: Mapping[str, USUnit] = MappingProxyType({
     "cm": USUnit("in", _INCH, 1), "km": USUnit("mi", 5280 * _FOOT, 1),
     "kN m/rad": USUnit("kip ft/rad", 1e3 * _LBF * _FOOT, 1), "N m/rad": USUnit("lbf ft/rad", _LBF * _FOOT, 1),
@@ -194,7 +190,7 @@ def sentence_in_display_units(text: str) -> str:
         while (link := numbers[0][1].strip()) in _SHARED_AFTER and not _SHARED_AFTER[link].search(text, 0, start):
             start += len("".join(numbers.pop(0)))
         is_difference = unit == "°C" and (numbers[0][0].startswith("+") or text[:start].endswith("by "))
-        largest = max(abs(_value(number)) for number, _ in numbers) * _SIZES[unit]
+        largest = max(abs(_value(number)) for number, _ in numbers) * _size_of(unit)
         shown = _WARMER if is_difference else _us_unit_of(unit, largest)
         texts = (_shown_number(number, unit, shown) + link for number, link in numbers)
         parts += [text[done:start], *texts, match["blank"] or " ", shown.symbol]
@@ -228,10 +224,19 @@ def axis_in_display_units(label: str, largest: float = 0.0) -> tuple[str, AxisUn
     if _system.get() == "si" or match is None or unit not in _ALL_US:
         return sentence_in_display_units(label), None
     is_modulus = unit == "MPa" and "modul" in label
-    shown = _MODULUS if is_modulus else _us_unit_of(unit, abs(largest) * _SIZES[unit])
+    shown = _MODULUS if is_modulus else _us_unit_of(unit, abs(largest) * _size_of(unit))
     before, after = label[: match.start("unit")], label[match.end("unit") :]
     parts = sentence_in_display_units(before), shown.symbol, sentence_in_display_units(after)
-    return "".join(parts), AxisUnit(_SIZES[unit], shown)
+    return "".join(parts), AxisUnit(_size_of(unit), shown)
+
+
+@functools.cache
+def _size_of(unit: str) -> float:
+    """An SI unit of a sentence in SI base units."""
+    # Loads NumPy, which commands that show no number do without.
+    from treadload.variables import SCALES
+
+    return {"cm": 1e-2, "km": 1e3, "kN m/rad": 1e3, "N m/rad": 1.0}.get(unit) or 1 / SCALES[unit]
 
 
 def _us_unit_of(unit: str, largest: float) -> USUnit:
@@ -254,8 +259,8 @@ def _shown_number(number: str, unit: str, shown: USUnit) -> str:
         return "0"
     minus, plus = "\u2212" if "\u2212" in number else "-", "+" if number.startswith("+") else ""
     if "×10" in number or "e" in number:
-        mantissa, _, power = f"{shown.number(value * _SIZES[unit]):{plus}.2e}".partition("e")
+        mantissa, _, power = f"{shown.number(value * _size_of(unit)):{plus}.2e}".partition("e")
         return f"{mantissa}×10{str(int(power)).translate(_RAISED)}".replace("-", minus)
     decimals = len(number.partition(".")[2])
-    added = shown.decimals - (abs(shown.number(value * _SIZES[unit])) >= _LARGE and shown.decimals > 0)
-    return f"{shown.number(value * _SIZES[unit]):{plus}.{max(decimals + added, 0)}f}".replace("-", minus)
+    added = shown.decimals - (abs(shown.number(value * _size_of(unit))) >= _LARGE and shown.decimals > 0)
+    return f"{shown.number(value * _size_of(unit)):{plus}.{max(decimals + added, 0)}f}".replace("-", minus)
