@@ -241,8 +241,8 @@ class Priors:
 
     def contacts(self) -> Contacts:
         """The tire with ribs on its belt, none of its contacts solved yet."""
-        # Shipped predictions were solved with the Poisson's ratio of the belt's layer; with 0.495 of rubber the damage
-        # a year of ten sections of LTPP is 0.5 to 6 % smaller.
+        # Shipped predictions were solved with the Poisson's ratio of the belt's layer; with 0.495 of rubber the
+        # damage a year of ten sections of LTPP is 0.5 to 6 % smaller.
         belt = replace(Belt.from_library(self.tire), ribs_poisson=None)
         tire = Tire.from_profile(self.tire, belt=belt, tread="ribs")
         return Contacts(tire, self.spacing)
