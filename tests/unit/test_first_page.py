@@ -63,7 +63,7 @@ def a_life(dips=(90.0, 90.0, np.nan, np.nan), years=20.0):
 def test_a_small_reading_is_told_by_a_power_of_ten():
     mean, extension = (tl.damage.known_quantities()[name] for name in ("mean_stress", "extension_strain"))
     for quantity, value, text in (
-        (mean, 16.9, "1.7×10⁻⁵ MPa"),
+        (mean, 16.9, "1.69×10⁻⁵ MPa"),
         (mean, 0.782e6, "0.782 MPa"),
         (extension, 223e-6, "223 microstrain"),
     ):
