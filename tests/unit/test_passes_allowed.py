@@ -104,7 +104,8 @@ def test_each_layer_has_the_law_of_its_mix():
     assert treated.reading == pytest.approx(
         max(float(data["stress_xx"].max()), float(data["stress_yy"].max())), rel=1e-3
     )
-    assert allowed.without == ("BBTM: epsilon_6 is missing, and the layer does not provide it; give it in the criterion.",)
+    missing = "BBTM: epsilon_6 is missing, and the layer does not provide it; give it in the criterion."
+    assert allowed.without == (missing,)
 
 
 def test_a_layer_of_which_only_the_modulus_is_known_is_told():
