@@ -11,6 +11,7 @@ from treadload.app.case_link import form_of_link, link_of
 from treadload.app.form import Form
 from treadload.case import Case
 from treadload.errors import InputError
+from treadload.reporting.typesetting import with_powers
 from treadload.steps.allowed import passes_allowed
 from treadload.steps.loaded import judge, load_case
 
@@ -193,7 +194,7 @@ def test_the_card_gives_the_answer_and_explains_the_map(visit):
     verdict = judge(load, load.solve(load.case.response.depths))
     allowed = passes_allowed(load, verdict)
     first = min(allowed.rows, key=lambda line: line.passes)
-    assert page.locator("#card .headline").inner_text() == f"{first.passes:.3g} load repetitions"
+    assert page.locator("#card .headline").inner_text() == with_powers(f"{first.passes:.3g} load repetitions")
     assert page.locator('[data-fact="Governing criterion"]').inner_text() == first.name == "french-subgrade"
     assert page.locator('[data-fact="Place"]').inner_text().startswith("soil, top, 260 mm deep")
     assert f"{1e6 * first.reading:.0f} microstrain" in page.locator('[data-fact="Why"]').inner_text()
