@@ -343,6 +343,15 @@ def remaining_in_words(years: float) -> str:
     return f"none (ended {-years:.3g} years ago)" if years < 0 else years_in_words(years)
 
 
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def times_power_of_ten(number: str) -> str:
+    """A number such as "1.2e+05" with a raised power: "1.2×10⁵"."""
+    mantissa, _, power = number.partition("e")
+    return f"{mantissa}×10{str(int(power)).translate(_RAISED)}"
+
+
 def repetitions_in_words(repetitions: float) -> str:
     """Load repetitions with three digits; that they are more than any road sees; "–" where not known."""
     if math.isnan(repetitions):

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from treadload.errors import InputError, nearest
+from treadload.units import times_power_of_ten
 
 SYSTEMS = ("si", "us")
 _system: ContextVar[str] = ContextVar("treadload_display_units", default="si")
@@ -113,7 +114,6 @@ _SHARED_AFTER = {
 }  # fmt: skip
 _OF_AXIS = re.compile(rf"(?:\A|\()(?P<unit>{_NAMES}|MPa √m)(?:\)|\Z)")
 _POWER = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 @contextmanager
@@ -259,8 +259,7 @@ def _shown_number(number: str, unit: str, shown: USUnit) -> str:
         return "0"
     minus, plus = "\u2212" if "\u2212" in number else "-", "+" if number.startswith("+") else ""
     if "×10" in number or "e" in number:
-        mantissa, _, power = f"{shown.number(value * _size_of(unit)):{plus}.2e}".partition("e")
-        return f"{mantissa}×10{str(int(power)).translate(_RAISED)}".replace("-", minus)
+        return times_power_of_ten(f"{shown.number(value * _size_of(unit)):{plus}.2e}").replace("-", minus)
     decimals = len(number.partition(".")[2])
     added = shown.decimals - (abs(shown.number(value * _size_of(unit))) >= _LARGE and shown.decimals > 0)
     return f"{shown.number(value * _size_of(unit)):{plus}.{max(decimals + added, 0)}f}".replace("-", minus)

@@ -60,10 +60,10 @@ def study(visit):
     visit.set("spacing", "16")
     visit.ready(2)
     visit.done()
-    one = visit.tab("study")
-    one.page.wait_for_selector('#bench[data-state="idle"]')
-    yield one
-    one.page.close()
+    tab = visit.tab("study")
+    tab.page.wait_for_selector('#bench[data-state="idle"]')
+    yield tab
+    tab.page.close()
 
 
 def fill(page, label, text):
@@ -102,7 +102,7 @@ def test_a_wrong_range_stands_at_its_field(study):
     page.locator("#solve").click()
     page.wait_for_function(
         "[...document.querySelectorAll('.q-field--error [role=alert]')]"
-        ".some((one) => one.innerText.includes('larger than'))"
+        ".some((label) => label.innerText.includes('larger than'))"
     )
     assert page.get_attribute("#bench", "data-moves") == before
     for dark in (False, True):
@@ -121,15 +121,15 @@ def test_a_table_of_sections_comes_out_ranked(visit, tmp_path):
     with path.open("w", newline="") as file:
         csv.writer(file, delimiter=";").writerows(SECTIONS)
     case.write_text(CASE)
-    one = visit.tab("network")
-    page = one.page
+    tab = visit.tab("network")
+    page = tab.page
     page.wait_for_selector('#bench[data-state="idle"]')
     page.locator("#solve").click()
     page.locator("#problems .problem").wait_for()
     assert "open a table of sections first" in page.locator("#problems").inner_text()
-    one.chosen("open a TOML …", case)
+    tab.chosen("open a TOML …", case)
     page.wait_for_function("document.querySelector('#case').innerText.startsWith('roads.toml')")
-    one.chosen("open a table …", path)
+    tab.chosen("open a table …", path)
     page.wait_for_function("document.querySelector('#sections').innerText === 'roads.csv'")
     page.locator("#solve").click()
     page.wait_for_selector('#bench[data-state="shown"]')
@@ -148,13 +148,13 @@ def test_a_table_of_sections_comes_out_ranked(visit, tmp_path):
     with open(taken.value.path(), encoding="utf-8-sig", newline="") as file:
         assert [line[:2] for line in csv.reader(file)][1:] == [row[:2] for row in rows]
     home = page.evaluate("document.querySelector('[data-take=nc]').href")
-    assert one.context.request.get(home).status == 200
-    # A table that cannot be used leaves the ranked one, and says why.
+    assert tab.context.request.get(home).status == 200
+    # A table that cannot be used leaves the ranked tab, and says why.
     bad = tmp_path / "bad.csv"
     bad.write_text("id;nonsense [mm]\nA;1\n")
     with pytest.raises(InputError) as same:
         tl.sweeps.read_sections(Case.from_toml(case), bad)
-    one.chosen("open a table …", bad)
+    tab.chosen("open a table …", bad)
     page.wait_for_function("document.querySelector('#sections').innerText === 'bad.csv'")
     page.locator("#solve").click()
     told = page.locator("#problems .problem")
@@ -162,11 +162,11 @@ def test_a_table_of_sections_comes_out_ranked(visit, tmp_path):
     assert told.inner_text().split("nonsense")[-1] == str(same.value).split("nonsense")[-1]
     assert table_of(page) == rows
     for dark in (False, True):
-        assert axe_faults(one, dark) == []
+        assert axe_faults(tab, dark) == []
     for width in (1024, 1440, 2560):
         page.set_viewport_size({"width": width, "height": 900})
         assert page.evaluate("document.documentElement.scrollWidth <= innerWidth"), width
-    assert not one.errors
+    assert not tab.errors
     page.close()
 
 
@@ -178,14 +178,14 @@ def test_a_spreadsheet_of_sections_is_read(visit, tmp_path):
     book.save(tmp_path / "roads.xlsx")
     case = tmp_path / "roads.toml"
     case.write_text(CASE)
-    one = visit.tab("network")
-    page = one.page
+    tab = visit.tab("network")
+    page = tab.page
     page.wait_for_selector('#bench[data-state="shown"]')
-    one.chosen("open a TOML …", case)
-    one.chosen("open a table …", tmp_path / "roads.xlsx")
+    tab.chosen("open a TOML …", case)
+    tab.chosen("open a table …", tmp_path / "roads.xlsx")
     page.wait_for_function("document.querySelector('#sections').innerText === 'roads.xlsx'")
     page.locator("#solve").click()
     page.wait_for_function("document.querySelectorAll('#ranked tbody tr').length === 2")
     assert [row[1] for row in table_of(page)] == ["A-2", "A-1"]
-    assert not one.errors
+    assert not tab.errors
     page.close()

@@ -77,9 +77,9 @@ class BasinsPage(Page):
         """A backcalculation that was opened before is shown."""
         self.stage.text = "waiting for a backcalculation"
         self.state("idle")
-        ready = [run for run in self.session.runs.values() if run.page == self.address and run.ready]
-        if ready:
-            await self._show(ready[-1])
+        ready = self.session.last_ready(self.address)
+        if ready is not None:
+            await self._show(ready)
 
     async def _opened(self, kept: str) -> None:
         run = self.session.new_run(None, self.session.known_as(kept), self.address)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from nicegui import ui
 
-from treadload.app.elements import choosing, heading, marks_change, plain, with_attributes
+from treadload.app.elements import choosing, heading, mark_error, marks_change, plain, with_attributes
 from treadload.app.field_errors import at_fields
 from treadload.app.form import Checked, Form
 from treadload.app.form_field import LIST, Field
@@ -261,20 +261,16 @@ class CaseForm(Uploads):
     def check(self) -> None:
         """Check the form, and show at each field whose its value is and what is wrong with it."""
         self._checked = self.form.check(self._folder)
-        fields = {path: field for path, (field, _) in self._shown.items()}
-        values = {path: self.form.value(path) for path in fields}
-        placed, elsewhere = at_fields(self._checked.wrong, fields, values)
+        placed, elsewhere = self._at_fields(self._checked.wrong)
         for path, (field, element) in self._shown.items():
             otherwise = self.form.default_of(field, self._checked.case)
-            is_given = values[path] is not None
+            is_given = self.form.value(path) is not None
             # What a road of yours leaves out is no value of yours.
             is_yours = is_given and self.form.is_yours(path)
             hint = "yours" if is_yours else "default" if is_given or not otherwise else f"default: {otherwise}"
-            with_attributes(element, hint=hint).props(remove="error error-message")
+            with_attributes(element, hint=hint)
             element.classes(add="is-yours" if is_yours else "", remove="" if is_yours else "is-yours")
-            if path in placed:
-                element.props["error"], element.props["error-message"] = True, placed[path]
-            element.update()
+            mark_error(element, placed.get(path, ""))
         self._problems.clear()
         with self._problems:
             for text in elsewhere:
@@ -289,15 +285,17 @@ class CaseForm(Uploads):
     def show_problem(self, text: str) -> None:
         """Show what is wrong: at the field that the sentence names, else above all fields."""
         text = self.session.in_words(text)
-        fields = {path: field for path, (field, _) in self._shown.items()}
-        placed, _ = at_fields({"": text}, fields, {path: self.form.value(path) for path in fields})
+        placed, _ = self._at_fields({"": text})
         for path, sentence in placed.items():
-            element = self._shown[path][1]
-            element.props["error"], element.props["error-message"] = True, sentence
-            element.update()
+            mark_error(self._shown[path][1], sentence)
             self._has_problem = True
         if not placed:
             super().show_problem(text)
+
+    def _at_fields(self, wrong: Mapping[str, str]) -> tuple[dict[str, str], list[str]]:
+        """Sentences at the fields on the page and elsewhere, see `at_fields`."""
+        fields = {path: field for path, (field, _) in self._shown.items()}
+        return at_fields(wrong, fields, {path: self.form.value(path) for path in fields})
 
     def clear_problem(self) -> None:
         """The problem is over; what is wrong with the fields of now is not."""

@@ -50,6 +50,14 @@ def marks_change(element: Any_Element, event: str = "click") -> Any_Element:
     return element
 
 
+def mark_error(element: ui.element, sentence: str) -> None:
+    """State at a field what is wrong with it; "" for nothing."""
+    element.props(remove="error error-message")
+    if sentence:
+        element.props["error"], element.props["error-message"] = True, sentence
+    element.update()
+
+
 def choosing(options: dict[str, str], value: str, label: str, do: Callable[[str], object]) -> ui.select:
     """One of a few."""
     select = ui.select(options, value=value, label=label, on_change=lambda event: do(event.value))

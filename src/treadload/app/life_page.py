@@ -52,12 +52,12 @@ class LifePage(Page):
 
     async def started(self) -> None:
         """A life is solved when it is asked for; one that stands is shown."""
-        ready = [run for run in self.session.runs.values() if run.page == self.address and run.ready]
+        ready = self.session.last_ready(self.address)
         self.stage.text = "ready to solve"
         self.state("idle")
         self._runs.list(None)
-        if ready:
-            self._show(ready[-1])
+        if ready is not None:
+            self._show(ready)
 
     def drawn(self, run: Run, answer: Answer) -> None:
         """Put the figures of a part where they belong."""

@@ -111,9 +111,9 @@ class NetworkPage(Page):
         self.state("idle")
         if self.address not in self.session.forms:
             self._take_life()
-        ready = [run for run in self.session.runs.values() if run.page == self.address and run.ready]
-        if ready:
-            await self._show(ready[-1])
+        ready = self.session.last_ready(self.address)
+        if ready is not None:
+            await self._show(ready)
 
     def case_came(self, name: str, form: Form) -> None:
         """The case that all sections share. name: of its file."""

@@ -99,6 +99,10 @@ class Session:
         if page in self._engines:
             await self._engines[page].stop()
 
+    def last_ready(self, page: str) -> Run | None:
+        """The latest run of a page that can be shown."""
+        return next((run for run in reversed(self.runs.values()) if run.page == page and run.ready), None)
+
     def new_run(self, form: Form | None, title: str, page: str) -> Run:
         """A run with a name that nobody guesses."""
         run = Run(secrets.token_hex(16), title, form, page)

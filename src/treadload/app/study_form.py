@@ -9,7 +9,7 @@ from typing import Any
 from nicegui import ui
 
 from treadload.app.answers import MOST_CASES
-from treadload.app.elements import choosing, heading, plain, with_attributes
+from treadload.app.elements import choosing, heading, mark_error, plain, with_attributes
 from treadload.app.form import Form
 from treadload.app.form_field import FREE, NUMBER, Field
 from treadload.app.form_parts import parts_in
@@ -134,7 +134,7 @@ class StudyForm:
             field = fields.get(keys[number])
             wrong = "choose an input" if field is None else ""
             wrong = wrong or ("this input varies already" if keys[number] in keys[:number] else "")
-            _mark(line.key, wrong)
+            mark_error(line.key, wrong)
             ends = []
             for element in (line.low, line.high):
                 text = str(element.value or "").strip()
@@ -144,25 +144,17 @@ class StudyForm:
                         raise InputError("give a number")
                     assert field is not None
                     ends.append((quantity(value, field.si), str(value)))
-                    _mark(element, "")
+                    mark_error(element, "")
                 except (InputError, ValueError) as error:
-                    _mark(element, str(error))
+                    mark_error(element, str(error))
                     is_right = False
             if len(ends) == 2 and not ends[0][0] < ends[1][0]:
-                _mark(line.high, "must be larger than from")
+                mark_error(line.high, "must be larger than from")
                 is_right = False
             count = str(line.count.value or "").strip()
             is_count = count.isascii() and count.isdigit() and 2 <= int(count) <= MOST_CASES
-            _mark(line.count, "" if is_count else f"2 to {MOST_CASES}")
+            mark_error(line.count, "" if is_count else f"2 to {MOST_CASES}")
             is_right = is_right and is_count and not wrong
             if len(ends) == 2:
                 texts.append(f"{keys[number]}={ends[0][1]}:{ends[1][1]}:{count}")
         return texts if is_right and texts else None
-
-
-def _mark(element: ui.element, wrong: str) -> None:
-    """State what is wrong with a field at the field."""
-    element.props(remove="error error-message")
-    if wrong:
-        element.props["error"], element.props["error-message"] = True, wrong
-    element.update()

@@ -74,9 +74,9 @@ class StudyPage(Page):
         """A study that was opened or solved before is shown."""
         self.stage.text = "waiting for a study"
         self.state("idle")
-        ready = [run for run in self.session.runs.values() if run.page == self.address and run.ready]
-        if ready:
-            await self._show(ready[-1])
+        ready = self.session.last_ready(self.address)
+        if ready is not None:
+            await self._show(ready)
 
     def solve_asked(self) -> None:
         """Solve the study that the fields describe."""

@@ -71,7 +71,7 @@ def ranked_sections(network: Network) -> list[RankedSection]:
     """Rows of the ranked table, the least remaining life first; sections that failed last, with their reasons."""
     data = network.dataset
     order = [int(number) for number in ranking(data)]
-    order += [number for number in range(data.sizes["section"]) if number not in set(order)]
+    order += sorted(set(range(data.sizes["section"])) - set(order))
     rows: list[RankedSection] = []
     for number in order:
         at = data.isel(section=number)

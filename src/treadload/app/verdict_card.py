@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+from collections import Counter
 from collections.abc import Mapping
 from typing import cast
 
@@ -71,10 +72,10 @@ def _of_life(life: Life) -> Card:
 
 def _of_allowed(allowed: PassesAllowed, parts: Parts) -> Card:
     first = min(allowed.rows, key=lambda line: line.passes)
-    repeated = {line.name for line in allowed.rows if sum(line.name == row.name for row in allowed.rows) > 1}
+    count = Counter(line.name for line in allowed.rows)
     # One law of several layers is named with the layer.
     called = {
-        row: f"{line.name}, {line.layer}" if line.name in repeated else line.name
+        row: f"{line.name}, {line.layer}" if count[line.name] > 1 else line.name
         for row, line in enumerate(allowed.rows)
     }
     lines = [

@@ -12,7 +12,7 @@ from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
-from treadload.tire.belt import belt_caveat
+from treadload.tire.belt import RUBBER, Belt, belt_caveat
 from treadload.tire.cross_section import TreadSection
 from treadload.tire.modulus import modulus_caveat
 from treadload.tire.surface import HeightMapSurface
@@ -24,8 +24,6 @@ _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip
 # Mean pressure of a footprint over the inflation pressure: a sensor below 315/80R22.5 at 35 kN gave 0.73 (Materials
 # 2021, 14, 2117), rated loads give 1.0 to 1.3 (from memory), overload more.
 _MEAN_OVER_INFLATION = (0.6, 1.6)
-# Least Poisson's ratio of rubber that keeps its volume.
-_RUBBER = 0.49
 # Grooves that are shallower than this part of the tread's thickness may close: below a truck's pressure the faces of
 # ribs sink by 4 % of it, and rubber rises between them.
 _MAY_CLOSE = 0.1
@@ -49,11 +47,8 @@ def of_tire(tire: Tire) -> list[str]:
         radius = tire.outer_radius
         caveat_of_modulus = belt_caveat(tire.belt, tire.inflation_pressure, None if radius is None else 2 * radius)
         warnings += [] if caveat_of_modulus is None else [caveat_of_modulus]
-    if tire.tread == "ribs" and tire.belt is not None and tire.belt.tread.poisson < _RUBBER:
-        warnings.append(
-            f"the ribs have a Poisson's ratio of {tire.belt.tread.poisson:g}, as of a layer that stands for grooves "
-            f"as well; rubber has {_RUBBER:g} to 0.4999: give the belt ribs_poisson = 0.495"
-        )
+    if tire.tread == "ribs" and tire.belt is not None:
+        warnings += of_rubber("ribs", tire.belt)
     section = tire.cross_section if tire.tread == "ribs" else None
     if section is not None and tire.belt is not None:
         warnings += [*of_tie_bars(section), *_of_shallow_grooves(section, tire.ribs[0].section.height)]
@@ -66,6 +61,17 @@ def of_tire(tire: Tire) -> list[str]:
                 "is known"
             )
     return warnings
+
+
+def of_rubber(what: str, belt: Belt) -> list[str]:
+    """That "ribs" or "blocks" are not of rubber, but of what stands for a layer with grooves."""
+    poisson = belt.tread.poisson
+    if poisson >= RUBBER:
+        return []
+    return [
+        f"the {what} have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; "
+        f"rubber has {RUBBER:g} to 0.4999: give the belt ribs_poisson = 0.495"
+    ]
 
 
 def of_tie_bars(section: TreadSection) -> list[str]:

@@ -48,8 +48,6 @@ _TOLERANCES = (1e-9, 1e-2)
 # Blocks are softer than the layer by which the contact is located, m.
 _FURTHER = 0.012
 _MOST_PITCHES = 40
-# Rubber that keeps its volume.
-_RUBBER = 0.49
 _BY_POSITION = (
     "normal_load", "approach", "contact_area", "largest_pressure", "largest_traction", "tractive_force",
     "lateral_force", "aligning_moment", "creepage_x", "creepage_y", "slip_fraction", "friction_energy",
@@ -362,12 +360,7 @@ def _warnings(window: Window, rolling: Rolling) -> list[str]:
     warnings = [*cautions.of_tire(tire), *cautions.of_numbers(tire, rolling, window.grid)]
     if isinstance(tire.surface, ProfileSurface):
         warnings += cautions.of_tie_bars(section_of(tire.surface.profile))
-    poisson = tire.belt.tread.poisson
-    if poisson < _RUBBER:
-        warnings.append(
-            f"the blocks have a Poisson's ratio of {poisson:g}, as of a layer that stands for grooves as well; "
-            f"rubber has {_RUBBER:g} to 0.4999: give the belt ribs_poisson = 0.495"
-        )
+    warnings += cautions.of_rubber("blocks", tire.belt)
     if window.pattern.is_joined:
         warnings.append(
             "the undertread or a tie bar between blocks reaches higher than 40 % of the tread, and what it passes "

@@ -89,11 +89,12 @@ def _planes(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Draw
 
 
 def _sections(data: xr.Dataset, beside: Mapping[str, xr.Dataset]) -> Iterator[Drawing]:
-    words = {"slice_along": "along travel", "slice_across": "across travel"}.get(kind_of_points(data))
-    if words is not None:
+    cuts = {"slice_along": ("along travel", "y"), "slice_across": ("across travel", "x")}
+    cut = cuts.get(kind_of_points(data))
+    if cut is not None:
+        words, crossed = cut
         damage = beside.get("damage")
         deep = assessed_depth(assessed_plane(beside.get("response"), damage))
-        crossed = "y" if words == "along travel" else "x"
         at = data[crossed].to_numpy().ravel()
         is_worst = damage is not None and np.allclose(at, float(damage[f"worst_{crossed}"]), atol=1e-6)
         through = f"the worst point {deep}" if is_worst else "the largest strain of the shallowest map"

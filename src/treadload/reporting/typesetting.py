@@ -6,10 +6,10 @@ import re
 
 from treadload.plots.kit.style import thousands
 from treadload.rows import Row
+from treadload.units import times_power_of_ten
 
 # A number such as 1.2e+05 in a sentence.
-_POWER = re.compile(r"(\d+(?:\.\d+)?)e([+-]?\d+)")
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
 _MINUS = re.compile(r"(?<![\w-])-(?=[\d.])")
 _WHOLE = re.compile(r"\d{5,}")
 
@@ -29,7 +29,7 @@ def with_powers(text: str) -> str:
     >>> with_powers("6.04e+06 load repetitions")
     '6.04×10⁶ load repetitions'
     """
-    return _POWER.sub(lambda match: f"{match[1]}×10{str(int(match[2])).translate(_RAISED)}", text)
+    return _POWER.sub(lambda match: times_power_of_ten(match[0]), text)
 
 
 def with_minus(text: str) -> str:

@@ -21,8 +21,8 @@ from treadload.units import BendingStiffness, Length, Number, PerLength, Pressur
 # Thinner than any worn tread with its undertread, thicker than any new one, m.
 _THINNEST, _THICKEST = 1e-3, 1.0
 TREAD = Elastic(5.5e6, 0.47)
-# Poisson's ratio of rubber is at least so large; a layer that stands for grooves as well has less.
 RUBBER = 0.49
+"""Least Poisson's ratio of rubber that keeps its volume; a layer that stands for grooves as well has less."""
 
 
 @dataclass(frozen=True)

@@ -24,6 +24,7 @@ from matplotlib.typing import ColorType
 from treadload.errors import InputError, nearest
 from treadload.plots.kit.us_figure import show_in_display_units
 from treadload.registry import COLOUR_MAPS
+from treadload.units import times_power_of_ten
 
 INK = "#1b1f24"
 MUTED = "#5b6470"
@@ -258,6 +259,4 @@ def power_of_ten(value: float) -> str:
     """A positive number as 1.2×10⁵, in characters that need no mathematics; a dash for none."""
     if not math.isfinite(value):
         return "∞" if value > 0 else "–"
-    mantissa, exponent = f"{value:.1e}".split("e")
-    raised = str(int(exponent)).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
-    return f"{mantissa}×10{raised}"
+    return times_power_of_ten(f"{value:.1e}")
