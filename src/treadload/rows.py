@@ -18,6 +18,8 @@ from treadload.us_units import display_units, in_display_units, sentence_in_disp
 from treadload.variables import SCALES, Display, display_of
 
 _WIDEST, _LONGEST = 34, 26
+# A table wider than a terminal is turned: a line a quantity in place of a line a group.
+_TERMINAL = 100
 """Letters, at most: of a label that sets the column of the values in a summary, of a cell in a table of one."""
 
 
@@ -241,13 +243,24 @@ def _read(table: RowTable) -> Row:
                None if place is None else Place(*place), str(table.get("group", "")))  # fmt: skip
 
 
+def _aligned(lines: Iterable[Sequence[str]]) -> list[str]:
+    """Lines of cells as text: the first column to the left, the others to the right."""
+    lines = list(lines)
+    widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
+    return [
+        "  ".join(f"{cell:{'>' if k else '<'}{widths[k]}}" for k, cell in enumerate(line)).rstrip() for line in lines
+    ]
+
+
 def _table(block: Sequence[Sequence[Row]]) -> list[str]:
-    """A line a group; columns of long texts, and remarks, below."""
+    """A line a group, or a line a quantity where that is narrower; columns of long texts, and remarks, below."""
     lines = table_of(block)
     widths = [max(map(len, column)) for column in zip(*(lines[1:]), strict=True)]
     shown = [k for k, width in enumerate(widths) if k == 0 or width <= _LONGEST]
-    widths = [max(width, len(head)) for width, head in zip(widths, lines[0], strict=True)]
-    written = ["  ".join(f"{line[k]:{'>' if k else '<'}{widths[k]}}" for k in shown).rstrip() for line in lines]
+    cells = [[line[k] for k in shown] for line in lines]
+    written = _aligned(cells)
+    if max(map(len, written)) > _TERMINAL:
+        written = min(written, _aligned(zip(*cells, strict=True)), key=lambda way: max(map(len, way)))
     for members, line in zip(block, lines[1:], strict=True):
         long = [k - 1 for k in range(1, len(line)) if k not in shown]
         remarks = [

@@ -1,6 +1,7 @@
 """Rows of a result: one description, rendered as text."""
 
 import math
+import re
 
 import pytest
 
@@ -46,6 +47,21 @@ def test_groups_with_the_same_rows_become_a_table():
     assert lines[2].split() == ["first", "1.00", "1000", "kPa"]
     assert lines[3].split() == ["second", "2.00", "20", "MPa"]
     assert lines[4:] == ["  second: beyond the law", "warning: spacing is 9 mm"]
+
+
+def test_a_table_wider_than_a_terminal_has_a_line_for_each_quantity():
+    label = "service life, by draws at a risk of {} %"
+    rows = [
+        row("years_at_risk", 0.5 * risk + k, label=label.format(risk), group=name, note="± 3 %" if risk == 5 else "")
+        for k, name in enumerate(("surface, top-down", "platform, rutting"))
+        for risk in (5, 50, 95)
+    ]
+    lines = as_text(rows).splitlines()
+    assert re.split(" {2,}", lines[0].strip()) == ["surface, top-down", "platform, rutting"]
+    assert [re.split(" {2,}", line)[0] for line in lines[1:4]] == [label.format(risk) for risk in (5, 50, 95)]
+    assert [line.split()[-2:] for line in lines[1:3]] == [["3.5", "years"], ["26", "years"]]
+    assert lines[4:] == ["  surface, top-down: ± 3 %", "  platform, rutting: ± 3 %"]
+    assert max(map(len, lines)) <= 100
 
 
 def test_a_single_group_is_a_heading_with_its_rows():

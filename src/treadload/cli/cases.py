@@ -120,6 +120,10 @@ def init(
     from treadload.files import write_whole
     from treadload.templates import first_case
 
+    if kind.endswith(".toml"):
+        raise InputError(
+            f"the argument is the kind of case, run, life or calibrate; the file: treadload init -o {kind}"
+        )
     text = first_case(kind)
     if output.exists() and not force:
         raise InputError(f"{output} exists already; give another name with -o, or --force to overwrite it")

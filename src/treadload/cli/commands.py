@@ -29,6 +29,7 @@ app = typer.Typer(
     help="What a tire does to a road: contact, rolling, strain, cracks and life.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["--help", "-h"]},
 )
 
 for _command in (
