@@ -3,7 +3,7 @@
     python benchmarks/catalogue_belts.py
 
 It prints the foundation that the belt has in the catalogue, the fitted one, and the one of a deflection 10 % smaller.
-The deflections are from memory, as the caveats of each belt state. The catalogue has three digits of each.
+The deflections are estimates, as the caveats of each belt state. The catalogue has three digits of each.
 """
 
 from __future__ import annotations

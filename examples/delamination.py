@@ -4,8 +4,9 @@ A truck wheel at 32.5 kN brakes at 4 m/s² on the French structure 6 BBSG3 / 15 
 utilisation of both interfaces; where the bond fails first and after how many passes; how the parted face slides
 with the friction that the wheel's own pressure gives it, and what the wearing course then bears; then the lives of
 the road with its bond, without it, and with it until it fails. The strengths are those of a core that just passes
-Leutner's test, from memory, above, and of a base bound to its platform by friction and 50 kPa, assumed, below; the
-slope of the bond's fatigue is assumed too: replace all of them by tests of your road.
+Leutner's test, as commonly quoted, not checked against the source, above, and of a base bound to its platform by
+friction and 50 kPa, assumed, below; the slope of the bond's fatigue is assumed too: replace all of them by tests of
+your road.
 
     python examples/delamination.py [folder]
 """

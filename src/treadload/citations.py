@@ -55,6 +55,9 @@ REFERENCES = _read()
 CITATIONS = {method: reference.prose for method, reference in REFERENCES.items()}
 """The same as prose."""
 
+COMMONLY_QUOTED = "as commonly quoted, not checked against the source"
+"""What caveats state of a number in common use for which no document and no program was found that prints it."""
+
 SOLVED_WHOLE = ("influence", "convolution", "normal", "preconditioner", "rolling", "newton", "stress")
 """Methods of a wheel on a road, from the contact to the stresses."""
 DENTS = ("influence", "convolution", "normal", "preconditioner", "eigenstrain", "dents", "mixing")

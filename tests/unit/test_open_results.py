@@ -174,7 +174,7 @@ def growth():
         design_years=20.0,
     )  # fmt: skip
     asked = tl.damage.CrackGrowth("top", law=tl.damage.ParisLaw(1e-4, 4.0))
-    return tl.damage.Growth(data, asked, {"responses": 4}, ("crack growth: from memory",))
+    return tl.damage.Growth(data, asked, {"responses": 4}, ("crack growth: as commonly quoted",))
 
 
 def equivalents():

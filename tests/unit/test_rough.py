@@ -5,6 +5,7 @@ import pytest
 
 import treadload as tl
 from treadload.contact import envelop, solve_texture
+from treadload.contact.rough import _touching
 from treadload.errors import InputError
 from treadload.pavement import texture as tx
 
@@ -54,6 +55,13 @@ def test_shares_of_load_and_area(rough):
     level = float(data.local_pressure[30])
     assert float(half.load_share_above[30]) == pytest.approx(p[p > level].sum() / p.sum())
     assert float(half.area_share_above[30]) == pytest.approx((p > level).mean())
+
+
+def test_the_rim_of_a_contact_counts_as_in_tamaas():
+    # tamaas 2.9.0: Statistics2D.contact(tractions, perimeter=40) of 10 x 10 cells in 64 x 64.
+    touches = np.zeros((64, 64), dtype=bool)
+    touches[10:20, 10:20] = True
+    assert _touching(touches, mirrored=False) == pytest.approx(0.023260603908630478, rel=1e-14)
 
 
 def test_area_ratio_is_read_along_the_curve(rough):

@@ -14,7 +14,7 @@ class RubberPower(FrictionLaw):
     """Friction that falls with a power of pressure, μ = coefficient_there (p/pressure)^-power, up to most.
 
     coefficient_there: μ at the pressure, > 0. pressure: at which it was measured.
-    power: 1/3 for spheres that are pressed flat (Schallamach 1952; from memory).
+    power: 1/3 for spheres that are pressed flat (Schallamach 1952, as commonly quoted).
     most: μ where there is next to no pressure.
     """
 

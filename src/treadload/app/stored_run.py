@@ -70,7 +70,7 @@ class StoredRuns:
         save_results(to_tree(stored.parts, case=stored.case, road=road), self.folder / f"{run}.nc")
 
     def run_of(self, run: str) -> StoredRun:
-        """A run, from memory or from its file. Raises InputError where it is not there."""
+        """A run that is loaded, or that of its file. Raises InputError where it is not there."""
         if run not in self._runs:
             opened = open_results(self.folder / f"{run}.nc")
             case = opened.case

@@ -22,7 +22,7 @@ from treadload.tire.undertread import UNDERTREAD
 _MAY_BE_NAN = {"initial_gap", "gap", "creepage_x", "creepage_y", "slip_x", "slip_y", "approach"}
 
 # Mean pressure of a footprint over the inflation pressure: a sensor below 315/80R22.5 at 35 kN gave 0.73 (Materials
-# 2021, 14, 2117), rated loads give 1.0 to 1.3 (from memory), overload more.
+# 2021, 14, 2117), rated loads give 1.0 to 1.3 (as commonly quoted), overload more.
 _MEAN_OVER_INFLATION = (0.6, 1.6)
 # Grooves that are shallower than this part of the tread's thickness may close: below a truck's pressure the faces of
 # ribs sink by 4 % of it, and rubber rises between them.

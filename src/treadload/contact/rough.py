@@ -6,7 +6,7 @@ rubber. Pressure p ≥ 0 minimises ½ p·A p + p·h at a mean; A is one factor f
 
 Sources: Stanley & Kato (1997), J. Tribol. 119, 481-485; Polonsky & Keer (1999), Wear 231, 206-219; Yastrebov,
 Anciaux & Molinari (2017), J. Mech. Phys. Solids 107, 469-493, for the area that cells at the rims of the contact have
-too much (its factor from memory, to verify).
+too much (its factor as tamaas 2.9.0 implements it; the original was not read).
 """
 
 from __future__ import annotations

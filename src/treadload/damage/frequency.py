@@ -30,7 +30,7 @@ class LoadingFrequency:
     for f = 1/t; left out, as the source of the rule has it, 1/t by the MEPDG and 1/(2πt) by Brown.
     Raises InputError.
     Sources: NCHRP 1-37A (2004), appendix CC-3, as coded in ProductOneME (commit c89fe2b); Brown (1973), Proc. Instn
-    Civ. Engrs 55, from memory, to verify.
+    Civ. Engrs 55, as commonly quoted, not checked against the source.
     """
 
     rule: Literal["mepdg", "brown"] = "mepdg"

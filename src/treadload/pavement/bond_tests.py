@@ -23,9 +23,10 @@ from treadload.units import Celsius, Stiffness
 _FROM, _TO = 0.2, 0.5
 _FEWEST = 5
 
-RECALLED_STIFFNESS: Mapping[str, float] = MappingProxyType({"slipping": 1e7, "adhering": 1e11})
-"""Stiffness of bonds, Pa/m, from memory, to verify: Al Hakim, Armitage and Thom (1998), Pavement assessment including
-bonding condition, back-calculated from deflections: 10 MN/m³ where layers slip, 10⁵ MN/m³ where they adhere."""
+QUOTED_STIFFNESS: Mapping[str, float] = MappingProxyType({"slipping": 1e7, "adhering": 1e11})
+"""Stiffness of bonds, Pa/m, as commonly quoted, not checked against the source: Al Hakim, Armitage and Thom (1998),
+Pavement assessment including bonding condition, back-calculated from deflections: 10 MN/m³ where layers slip, 10⁵
+MN/m³ where they adhere."""
 
 
 @dataclass(frozen=True, eq=False)

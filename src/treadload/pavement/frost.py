@@ -89,7 +89,7 @@ class Frost:
     soil: moisture of the last layer. base: of all other unbound layers. layers: of layers by their names, in place of
     these. frozen: modulus of a frozen layer over that of the thawed one. thawed: modulus just after thawing over that
     of the recovered one, in (0, 1]. recovery: days from thawing until the modulus is back, linear between. Defaults
-    of the last three after NCHRP 1-37A, from memory, to verify. Raises InputError.
+    of the last three after NCHRP 1-37A, as commonly quoted, not checked against the source. Raises InputError.
 
     >>> road = tl.Pavement.from_catalogue("4 BBM / 15 GNT1 / PF2", temperature=15)
     >>> [water and water.kind for water in tl.pavement.Frost().moisture(road)]  # asphalt, base, subgrade

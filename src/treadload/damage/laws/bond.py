@@ -17,6 +17,7 @@ from typing import ClassVar, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantity import INTERFACE, Quantity
 from treadload.errors import InputError, positive
@@ -28,11 +29,12 @@ from treadload.units import Number
 Strength = float | Callable[[float], float]
 
 LEUTNER_MINIMUM: Mapping[str, float] = MappingProxyType({"wearing": 15e3, "lower": 12e3})
-"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, recalled from the German rules.
+"""Shear forces, N, that cores of 150 mm must reach in Leutner's test, at 20 °C, by the German rules.
 
-"wearing": under the wearing course, "lower": between the courses below. No source with these two numbers was read.
-Proposals that were read: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829), and 21 kN under wearing
-courses just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
+"wearing": under the wearing course, "lower": between the courses below. The numbers are as commonly quoted, not
+checked against the source, ZTV Asphalt-StB 07; that it has a requirement for each of these two places is stated by
+the FGSV, committee 7.4.3. Proposals that were read: 16 to 25 kN (Stöckert and Grätz 2001, Forschung Straßenbau 829),
+and 21 kN under wearing courses just built (Swiss project FA 12/94, as its successor VSS 2005/503 reports).
 """
 _CORE = 0.15
 # Utilisation of a bond that has certainly failed: finite, so that readings can be interpolated.
@@ -41,7 +43,7 @@ _PARTED = 1e3
 _ROUND_OFF = 1e-6
 # Tests through which a line is drawn.
 _FEWEST = 3
-_RECALLED = "the least force of Leutner's test is from memory, no source was read"
+_QUOTED_FORCE = f"the least force of Leutner's test is {COMMONLY_QUOTED}"
 
 
 class BondStrength(ABC):
@@ -137,7 +139,7 @@ class InterfaceStrength(BondStrength):
         """Strength of a core that just passes Leutner's test. place: of `LEUTNER_MINIMUM`, with its caveat."""
         if place not in LEUTNER_MINIMUM:
             raise InputError(f"place must be one of {', '.join(LEUTNER_MINIMUM)}, got {place!r}")
-        return replace(cls.from_leutner(LEUTNER_MINIMUM[place]), caveat=_RECALLED)
+        return replace(cls.from_leutner(LEUTNER_MINIMUM[place]), caveat=_QUOTED_FORCE)
 
     @property
     def depends_on_temperature(self) -> bool:

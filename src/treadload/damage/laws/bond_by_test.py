@@ -25,10 +25,12 @@ from treadload.units import Angle, Celsius, Length, Number, PerDegree, Pressure,
 LEUTNER_RATE = 50e-3 / 60
 """Of Leutner's test, 50 mm/min, m/s."""
 _TEST_TEMPERATURE = 20.0
-RECALLED_SOFTENING = 0.053
-"""Loss of strength with temperature, 1/K, from memory: West, Zhang and Moore (2005), NCAT Report 05-08, 10 to 60 °C.
+QUOTED_SOFTENING = 0.053
+"""Loss of strength with temperature, 1/K, from 10 to 60 °C, as commonly quoted, not checked against the source.
 
-Bonds at 10 °C bore 2.3 times what they bore at 25 °C, at 60 °C a sixth of that: 0.056 and 0.051 per kelvin.
+Of West, Zhang and Moore (2005), NCAT Report 05-08: bonds at 10 °C carried 2.3 times as much as at 25 °C, at 60 °C a
+sixth of that, which is 0.056 and 0.051 per kelvin. That an exponential of temperature fits shear tests of tack coats
+is the finding of Du (2015), Journal of Civil Engineering and Management 21, 571-577 (abstract read).
 """
 _SLIP = 2e-3
 _ANY, _ANY_RATE = (-math.inf, math.inf), (0.0, math.inf)
@@ -82,18 +84,19 @@ class TimedStrength(BondStrength):
 
     @classmethod
     def leutner_minimum(cls, place: str, *, rate_exponent: float = 0.0, friction_angle: float = 0.0) -> Self:
-        """A core that just passes Leutner's test at 20 °C, softening as West's cores do; all of it from memory.
+        """A core that just passes Leutner's test at 20 °C, softening as West's cores do; its numbers are as commonly
+        quoted, not checked against the source.
 
         place: as for `InterfaceStrength.leutner_minimum`. rate_exponent, friction_angle: 0 counts on no help.
         """
         least = InterfaceStrength.leutner_minimum(place)
         return cls(
             float(least.shear_strength(0.0)),
-            RECALLED_SOFTENING,
+            QUOTED_SOFTENING,
             rate_exponent,
             friction_angle=friction_angle,
             temperatures=(10.0, 60.0),
-            caveat=f"{least.caveat}; its softening of {RECALLED_SOFTENING:g} per kelvin is from memory, too",
+            caveat=f"{least.caveat}; so is its softening of {QUOTED_SOFTENING:g} per kelvin",
         )
 
     @classmethod

@@ -35,13 +35,15 @@ UNSTATED = LoadingConditions()
 CATALOGUE = LoadingConditions(
     frequency="25 Hz",
     temperature="10 °C",
-    control="two-point bending of trapezoids at constant displacement, as NF EN 12697-24 describes it (from memory)",
+    control="two-point bending of trapezoids at constant displacement (NF P 98-261-1, now in NF EN 12697-24)",
     rest="none, a continuous sine (the same)",
 )
 """Tests behind ε₆ of the mixes of the catalogue.
 
-Frequency and temperature are those of the source of the numbers. The public summary of NF EN 12697-24 states the
-bending, its control and its sine; that it is the test behind ε₆ is from memory.
+Frequency and temperature are those of the source of the numbers. The publisher's summary of NF P 98-261-1 (2001),
+which NF EN 12697-24 was made to replace, states the rest: isosceles trapezoids clamped at their base, bent by a
+continuous sine of constant displacement until conventional failure, which gives the slope of the line and the strain
+that allows 10⁶ cycles, ε₆.
 """
 BY_MODULUS = LoadingConditions(
     frequency="none of its own: through E, the modulus at the frequency of the load",

@@ -31,7 +31,8 @@ GROUP_FACTORS: Mapping[str, Mapping[int, float]] = {
     "bituminous": {1: 1.0, 2: 0.75, 3: 1.1},
     "hydraulic": {1: 1.0, 2: 12.0, 3: 113.0},
 }
-"""K of one axle by the number of axles in its group and the kind of layer; from memory, not verified in a source."""
+"""K of one axle by the number of axles in its group and the kind of layer; as commonly quoted, not checked against
+the source, LCPC and SETRA (1994), technical guide of pavement structures."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +89,7 @@ def aggressiveness(
     axles: (load P of one axle, N; number n of such axles; K of its group). K is 1 for a single axle; in a tandem
     0.75 and in a tridem 1.1 for bituminous layers, 12 and 113 for hydraulic ones. vehicles: N, heavy vehicles
     weighed. power: α, 5 for bituminous layers, 12 for hydraulic ones. reference: P₀, N.
-    α and K are from memory, not verified in a source. Raises InputError.
+    α and K are as commonly quoted, not checked against the source. Raises InputError.
 
     >>> axles = [(80e3, 40, 1.0), (130e3, 10, 1.0), (80e3, 30, 0.75)]
     >>> f"{tl.damage.aggressiveness(axles, vehicles=20, power=5):.2f} axles of 130 kN per heavy vehicle"

@@ -10,6 +10,7 @@ from typing import ClassVar, overload
 
 import numpy as np
 
+from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.laws.american import check_volumes, mix_factor
 from treadload.damage.laws.conditions import BY_MODULUS, LoadingConditions
 from treadload.damage.laws.fatigue import PowerLaw
@@ -20,8 +21,13 @@ from treadload.kernels.arrays import Array
 from treadload.registry import CRITERIA
 from treadload.units import Modulus, Share
 
-_IRC = "IRC:37-2018, as a public transcription of its worked designs has it, a secondary source"
-_ROADS = "by sections of Indian roads, from memory, for uniform discs of 0.56 MPa and axles of 80 kN"
+_IRC = (
+    "IRC:37-2018, clauses 3.6.1 to 3.6.3, as a public transcription of its worked designs and the program IndoPave37 "
+    "(commit 2624b72) have it, secondary sources"
+)
+_ROADS = (
+    f"by sections of Indian roads, {COMMONLY_QUOTED}; for uniform discs of 0.56 MPa and axles of 80 kN (clause 3.6.1)"
+)
 # Constants by reliability: of the fatigue of asphalt, of the rutting of the subgrade.
 _FATIGUE: Mapping[float, float] = MappingProxyType({0.8: 1.6064e-4, 0.9: 0.5161e-4})
 _RUTTING: Mapping[float, float] = MappingProxyType({0.8: 4.1656e-8, 0.9: 1.41e-8})
@@ -186,7 +192,7 @@ class IrcCementTreated:
 def granular_modulus(thickness: float, below: float) -> float:
     """Modulus, Pa, of a granular layer of a thickness, m, on a subgrade or platform of a modulus, Pa.
 
-    0.2 h^0.45 times that below, h in mm. Raises InputError. Source: IRC:37-2018.
+    0.2 h^0.45 times that below, h in mm. Raises InputError. Source: IRC:37-2018, equation 7.1.
 
     >>> f"{tl.damage.granular_modulus(0.45, 60e6) / 1e6:.0f} MPa"
     '188 MPa'
@@ -199,7 +205,8 @@ def granular_modulus(thickness: float, below: float) -> float:
 def subgrade_modulus(bearing_ratio: float) -> float:
     """Modulus, Pa, of a subgrade of a California bearing ratio, %: 10 CBR MPa up to 5, 17.6 CBR^0.64 MPa above.
 
-    Raises InputError. Source: IRC:37-2018; the first of both from memory.
+    For design the guideline limits it to 100 MPa (clause 6.4.2), which is left to the user. Raises InputError.
+    Source: IRC:37-2018, equations 6.1 and 6.2, as IndoPave37 (commit 2624b72) implements them.
 
     >>> f"{tl.damage.subgrade_modulus(5.0) / 1e6:.0f} MPa"
     '50 MPa'

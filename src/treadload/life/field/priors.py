@@ -139,7 +139,7 @@ class Priors:
             f"treated base, {self.subgrade_modulus / 1e6:g} MPa subgrade, usual of design: assumed",
             "vehicles": f"trucks with a steering axle of {self.steering_load / 1e3:g} kN and two tandems of "
             f"{self.tandem_load / 1e3:g} kN on dual wheels, a loaded semitrailer of five axles; such a truck counts "
-            f"as {self.axles_per_truck:g} standard axles (AASHTO 1993, 12 and 30 kip, from memory)",
+            f"as {self.axles_per_truck:g} standard axles (AASHTO Guide 1993, 12 and 30 kip)",
             "missing traffic": f"{axles} standard axles a year by thickness class, the geometric means of LTPP's "
             "sections of that class",
             "tires": f"{self.tire} with ribs on its belt, rolling freely, at {self.steering_pressure / 1e5:.1f} and "

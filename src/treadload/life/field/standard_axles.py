@@ -11,10 +11,13 @@ from treadload.damage.traffic import AxleClass, Traffic
 STANDARD_LOADS = {1: 80e3, 2: 147.7e3, 3: 213.5e3}
 """Loads of a single axle, a tandem and a tridem that do the damage of one standard axle, N.
 
-18, 33.2 and 48 kip of the AASHTO Guide 1993, rounded there by structure; from memory.
+18, 33.2 and 48 kip. By the equation of load equivalence of the AASHTO Guide 1993, as the University of Toledo
+(course CET 3120) prints it, a tandem is one standard axle at 33.0 to 33.5 kip and a tridem at 47.1 to 48.2, for
+structural numbers 1 to 6 and a terminal serviceability of 2.5.
 """
 POWER = 4.0
-"""Power of the load by which axles become standard ones: the usual one, from memory."""
+"""Power of the load by which axles become standard ones, which the equation of the AASHO road test implies (Addis,
+Transport Research Laboratory, Vehicle wheel loads and road pavement wear)."""
 # Axles nearer to each other than this act as a group, m; wheels further apart across are of both ends of an axle, m.
 _GROUP, _WIDE = 2.0, 1.0
 # Wheels this near to each other along travel are of one axle, m.
