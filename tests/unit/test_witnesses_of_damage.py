@@ -9,9 +9,11 @@ import xarray as xr
 import treadload as tl
 from treadload.damage import add_thermal_stress
 from treadload.damage.cracks import crack_plane
+from treadload.damage.energies import DissipatedEnergy
 from treadload.damage.fields import peak
+from treadload.damage.invariants import MazarsStrain
 from treadload.damage.laws.energy_ratio import EnergyRatio
-from treadload.damage.quantities import DissipatedEnergy, HorizontalTension, MazarsStrain
+from treadload.damage.quantities import HorizontalTension
 from treadload.damage.quantity import Where
 from treadload.damage.worst_point import _between
 from treadload.response.fields import response_dataset

@@ -53,6 +53,14 @@ class Crossing(BaseResult, group="crossing"):
     road's own fields: its height, the largest pressure, the work of closing and of friction; plain_pressure and
     plain_work, the largest without the obstacle; edge_work, the largest closing work within a cell of an edge.
     hold: "load" or "axle". stats: iterations, seconds. warnings: sentences for the user.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> step, free = tl.pavement.RoadStep(0.001), tl.Rolling(normal_load=100.0, friction=0.0)
+    >>> crossing = tl.contact.cross_obstacle(tire, road, free, step, positions=[-0.06, 0.06], spacing=0.006)
+    >>> before, after = crossing.dataset.approach.values
+    >>> f"the axle rises by {(before - after) * 1e3:.2f} mm over a step of 1 mm"
+    'the axle rises by 1.00 mm over a step of 1 mm'
     """
 
     title: ClassVar[str] = "Crossing of an obstacle"

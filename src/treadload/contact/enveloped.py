@@ -34,6 +34,13 @@ class Enveloped(BaseResult, group="enveloped"):
 
     dataset: pressure, traction_x, traction_y over (y, x), Pa, and normal_load, N, that of the contact. length: m,
     in its attributes.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> enveloped = tl.contact.envelop(contact, length=0.012)
+    >>> [f"{result.dataset.pressure.values.max() / 1e3:.0f} kPa" for result in (contact, enveloped)]
+    ['212 kPa', '206 kPa']
     """
 
     title: ClassVar[str] = "Enveloped contact"

@@ -21,6 +21,13 @@ class RollingResistance(BaseResult, group="rolling_resistance"):
     the axle. force: moment over rolling radius, N. coefficient: force over normal load.
     material_loss: energy lost in the materials per metre rolled, J/m = N, by pressure and shear, without what
     friction takes. material_power: the same over time, W; None without a speed.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> resistance = tl.contact.rolling_resistance(contact, radius=0.3)
+    >>> abs(resistance.force) < 1e-6 * 100.0  # N: an elastic tire loses no energy
+    True
     """
 
     moment: float

@@ -58,6 +58,12 @@ class TextureContact(BaseResult, group="texture"):
     and the predictions of Persson's theory and of independent asperities; over local_pressure as well the share of
     the load that pressures above it carry, and of the area under them; texture_height and pressure over (y, x) at
     reference_pressure. stats: iterations, seconds. warnings: sentences. texture, rubber: the question.
+
+    >>> from treadload.pavement.texture import self_affine
+    >>> texture = self_affine(0.016, 0.001, hurst=0.8, shortest=0.004, rms_height=1e-4)
+    >>> result = tl.contact.solve_texture(texture, tl.Elastic(6e6, 0.5), [1e5, 2e5])
+    >>> f"{result.area_ratio([1.5e5])[0]:.0%} of the area touches at 150 kPa"
+    '54% of the area touches at 150 kPa'
     """
 
     title: ClassVar[str] = "Contact with a texture"
@@ -175,6 +181,12 @@ def solve_texture(
     of a Contact or the middle of the list. tolerance: of the gap where it should be closed, relative to the approach.
     No friction, no adhesion, no water. Raises InputError for drop-outs and pressures that are none, ConvergenceError
     with the residual reached.
+
+    >>> from treadload.pavement.texture import self_affine
+    >>> texture = self_affine(0.016, 0.001, hurst=0.8, shortest=0.004, rms_height=1e-4)
+    >>> result = tl.contact.solve_texture(texture, tl.Elastic(6e6, 0.5), [1e5, 2e5])
+    >>> [f"{share:.0%}" for share in result.dataset.real_area_ratio.values]  # of the area touches at 100 and 200 kPa
+    ['40%', '68%']
     """
     began = time.perf_counter()
     tell = progress or (lambda text: None)

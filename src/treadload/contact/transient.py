@@ -50,6 +50,12 @@ class TransientResult(BaseResult, group="transient"):
 
     dataset: over (step,), step 0 being the standing wheel; fields over (step, y, x) when they were asked for.
     contact: the fields at the end. rolling: the state of every step. stats: iterations, seconds.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> transient = tl.contact.solve_transient(tire, road, wheel, distances=[0.005, 0.01], spacing=0.006)
+    >>> transient.dataset.sizes["step"]  # the standing wheel and both distances
+    3
     """
 
     title: ClassVar[str] = "Transient rolling"

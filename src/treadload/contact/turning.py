@@ -41,6 +41,12 @@ class TurnResult(BaseResult, group="turn"):
     dataset: over (step,), step 0 being the standing wheel: turn_angle, steering_torque, slip_fraction, … and
     the scalar sliding_torque. contact: the fields at the end, in the axes of the wheel. rolling: load and
     friction. pivot: the point that was held, m, or None. stats: iterations, seconds.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> turn = tl.contact.turn_on_the_spot(tire, road, wheel, angles=[0.5], spacing=0.006)
+    >>> f"{turn.dataset.steering_torque.values[-1]:.2f} N m at an angle of 0.5 rad"
+    '0.62 N m at an angle of 0.5 rad'
     """
 
     title: ClassVar[str] = "Turn on the spot"

@@ -3,12 +3,14 @@
 from treadload.damage.climate import Climate, Season
 from treadload.damage.cracks import crack_rose, envelope
 from treadload.damage.criterion import Criterion
+from treadload.damage.energies import DissipatedEnergy, DistortionEnergy
 from treadload.damage.field_shift import FieldShift, field_shifts, read_field_shifts
 from treadload.damage.fields import compute_quantities, known_quantities, peak, tension_behind
 from treadload.damage.growth import CrackGrowth, FromStrength, Growth, ParisLaw
 from treadload.damage.history import add_thermal_stress, residual_after, thermal_stress
 from treadload.damage.indices import asphalt_rut, distortion_work, polishing_work, tearing_work
 from treadload.damage.interface import BondVerdict, assess_bonds, delaminate, interface_fields
+from treadload.damage.invariants import MazarsOnset, MazarsStrain, MeanStress, OctahedralShear, VonMisesStrain
 from treadload.damage.laws.aged import AgedLine, AgedSurface, TwoSlopeLine
 from treadload.damage.laws.american import (
     AsphaltInstitute,
@@ -38,20 +40,13 @@ from treadload.damage.listing import laws_listed, listed, quantities_listed
 from treadload.damage.miner import miner
 from treadload.damage.quantities import (
     BottomExtension,
-    DissipatedEnergy,
-    DistortionEnergy,
     Extension,
     HorizontalTension,
-    MazarsOnset,
-    MazarsStrain,
-    MeanStress,
-    OctahedralShear,
     PrincipalTension,
     SubgradeCompression,
     SurfaceExtension,
     VerticalCompression,
     VerticalShear,
-    VonMisesStrain,
 )
 from treadload.damage.quantity import Quantity
 from treadload.damage.ratios import EnergyDemand, OctahedralRatio

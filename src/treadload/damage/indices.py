@@ -15,7 +15,8 @@ import xarray as xr
 from treadload import variables
 from treadload.composing import Source, dataset_of
 from treadload.damage.cracks import gridded
-from treadload.damage.quantities import DistortionEnergy, VerticalCompression
+from treadload.damage.energies import DistortionEnergy
+from treadload.damage.quantities import VerticalCompression
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials import PassesPowerLaw
@@ -43,6 +44,14 @@ def polishing_work(contact: Source) -> xr.DataArray:
     contact: of a rolling wheel, with friction_work over (y, x). Its sum over the width is friction_work_total. Not
     calibrated: polishing tests relate friction lost to the number of passes of their own rubber, not to this work.
     Raises InputError for a contact that does not slide along.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> wheel = tl.Rolling(normal_load=100.0, friction=0.7, tractive_force=-35.0)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> work = tl.damage.polishing_work(contact)
+    >>> f"{work.max().item():.2f} J/m² below the middle of the tire"
+    '6.51 J/m² below the middle of the tire'
     """
     data = dataset_of(contact)
     if "friction_work" not in data:

@@ -11,7 +11,6 @@ from typing import Self
 import numpy as np
 import xarray as xr
 
-from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.quantity import (
     BOTTOM,
     STRAIN,
@@ -21,17 +20,11 @@ from treadload.damage.quantity import (
     Quantity,
     Reading,
     check_reading,
-    ordered,
     part,
 )
-from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
-from treadload.pavement import Pavement
 from treadload.registry import QUANTITIES
-from treadload.units import Strain
-
-MAZARS_ONSET = 100e-6  # of asphalt: 50 to 100 microstrain, as commonly quoted
 
 
 def _in_the_plane(tensor: tuple[str, ...]) -> tuple[str, ...]:
@@ -124,7 +117,14 @@ def _in_plane() -> Extension:
 @QUANTITIES.register("surface_extension")
 @dataclass(frozen=True)
 class SurfaceExtension(Extension):
-    """Largest extension of the surface of the road. strain: "in-plane" or "principal"."""
+    """Largest extension of the surface of the road. strain: "in-plane" or "principal".
+
+    >>> road, plate = tl.Pavement.half_space(tl.Elastic(1e9, 0.35)), tl.UniformDisc(0.1, 8e5)
+    >>> response = tl.solve_response(plate, road, depths=[0.0], x=[0.0, 0.15], y=[0.0])
+    >>> strains = tl.damage.SurfaceExtension().field(response.dataset)
+    >>> [f"{strain * 1e6:.0f} microstrain" for strain in strains.values.ravel()]  # below and beside the load
+    ['-162 microstrain', '72 microstrain']
+    """
 
     words = "tensile strain at the surface"
     calibrated = "MEPDG's top-down cracking reads it at points under uniform discs (as coded in ProductOneME)"
@@ -135,7 +135,13 @@ class SurfaceExtension(Extension):
 @QUANTITIES.register("bottom_extension")
 @dataclass(frozen=True)
 class BottomExtension(Extension):
-    """Largest extension at the bottom of the asphalt. strain: "in-plane" or "principal"."""
+    """Largest extension at the bottom of the asphalt. strain: "in-plane" or "principal".
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0], y=[0.0])
+    >>> f"{tl.damage.BottomExtension().field(response.dataset).item() * 1e6:.0f} microstrain"
+    '269 microstrain'
+    """
 
     words = "tensile strain at the bottom of the asphalt"
     calibrated = "the French method, MEPDG, the Asphalt Institute and Shell are fitted to it"
@@ -147,7 +153,13 @@ class BottomExtension(Extension):
 @QUANTITIES.register("vertical_compression")
 @dataclass(frozen=True)
 class VerticalCompression(Quantity):
-    """Vertical strain, compression positive."""
+    """Vertical strain, compression positive.
+
+    >>> road, plate = tl.Pavement.half_space(tl.Elastic(100e6, 0.35)), tl.UniformDisc(0.15, 700e3)
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=[0.0], y=[0.0])
+    >>> f"{tl.damage.VerticalCompression().field(response.dataset).item() * 1e6:.0f} microstrain"
+    '4171 microstrain'
+    """
 
     name = "vertical_compression"
     words = "vertical compression"
@@ -181,7 +193,13 @@ class SubgradeCompression(VerticalCompression):
 @QUANTITIES.register("horizontal_tension")
 @dataclass(frozen=True)
 class HorizontalTension(Quantity):
-    """Largest principal stress of the horizontal plane; a crack opens across it."""
+    """Largest principal stress of the horizontal plane; a crack opens across it.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(15e9, 0.25), 0.2), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.2], x=[0.0], y=[0.0])
+    >>> f"{tl.damage.HorizontalTension().field(response.dataset).item() / 1e6:.2f} MPa at the bottom of the base"
+    '1.55 MPa at the bottom of the base'
+    """
 
     name = "horizontal_tension"
     words = "tensile stress"
@@ -202,7 +220,14 @@ class HorizontalTension(Quantity):
 @QUANTITIES.register("principal_tension")
 @dataclass(frozen=True)
 class PrincipalTension(Quantity):
-    """Largest principal stress in space; a crack opens across it."""
+    """Largest principal stress in space; a crack opens across it.
+
+    >>> road, plate = tl.Pavement.half_space(tl.Elastic(1e9, 0.35)), tl.UniformDisc(0.1, 8e5)
+    >>> response = tl.solve_response(plate, road, depths=[0.0], x=[0.0, 0.11], y=[0.0])
+    >>> tensions = tl.damage.PrincipalTension().field(response.dataset)
+    >>> [f"{tension / 1e3:.0f} kPa" for tension in tensions.values.ravel()]  # below and beside the load
+    ['-680 kPa', '99 kPa']
+    """
 
     name = "principal_tension"
     words = "principal tension"
@@ -220,127 +245,16 @@ class PrincipalTension(Quantity):
         return tensors.principal(stress)[1]
 
 
-@QUANTITIES.register("mazars_strain")
-@dataclass(frozen=True)
-class MazarsStrain(Quantity):
-    """Mazars equivalent strain, √Σ⟨ε⟩², of the extensions alone; its crack opens across the largest of them."""
-
-    name = "mazars_strain"
-    words = "Mazars equivalent strain"
-    shown = "microstrain"
-    source = "Mazars (1986), Eng. Fract. Mech. 25"
-    calibrated = "for concrete; for asphalt neither the onset nor a law of passes was found in a source"
-    needs = STRAIN
-    needs_tension = True
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """√Σ⟨ε⟩²."""
-        return tensors.mazars(tensors.principal_values(strain))
-
-    def normal(self, stress: Array, strain: Array) -> Array:
-        """The direction of the largest extension."""
-        return tensors.principal(strain)[1]
-
-
-@QUANTITIES.register("mazars_onset_ratio")
-@dataclass(frozen=True)
-class MazarsOnset(MazarsStrain):
-    """Mazars equivalent strain over the strain at which damage begins.
-
-    onset: that strain, 50 to 100 microstrain as commonly quoted, not checked against the source. Raises InputError.
-    """
-
-    onset: Strain = MAZARS_ONSET
-
-    name = "mazars_onset_ratio"
-    words = "Mazars equivalent strain over that at which damage begins"
-    shown = ""
-
-    def __post_init__(self) -> None:
-        if not 0 < self.onset < 0.01:
-            raise InputError(f"mazars_onset must be a plain strain in (0, 0.01), got {self.onset}; 100e-6 is usual")
-
-    @property
-    def caveat(self) -> str:
-        """The onset, where it is ours."""
-        return f"the strain at which damage begins is {COMMONLY_QUOTED}" if self.onset == MAZARS_ONSET else ""
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """√Σ⟨ε⟩² over the onset."""
-        return super().of(stress, strain) / self.onset
-
-
-@QUANTITIES.register("von_mises_strain")
-@dataclass(frozen=True)
-class VonMisesStrain(Quantity):
-    """Von Mises equivalent strain, √(½ Σ (εᵢ - εⱼ)²)."""
-
-    name = "von_mises_strain"
-    words = "von Mises equivalent strain"
-    shown = "microstrain"
-    source = "Sousa; the strain of a four-point beam test stands for (1 + ν) times itself"
-    calibrated = "by beam tests through that factor; not on roads"
-    needs = STRAIN
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """√(½ Σ (εᵢ - εⱼ)²)."""
-        return tensors.von_mises(strain)
-
-
-@QUANTITIES.register("octahedral_shear_stress")
-@dataclass(frozen=True)
-class OctahedralShear(Quantity):
-    """Octahedral shear stress."""
-
-    name = "octahedral_shear_stress"
-    words = "octahedral shear stress"
-    unit, shown = "Pa", "MPa"
-    source = "Lytton, with the mean stress"
-    calibrated = "together with the mean stress, as the octahedral shear over its strength; alone it is not"
-    needs = STRESS
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """√((σ₁-σ₂)² + (σ₂-σ₃)² + (σ₃-σ₁)²) / 3."""
-        return tensors.octahedral_shear(stress)
-
-
-@QUANTITIES.register("mean_stress")
-@dataclass(frozen=True)
-class MeanStress(Quantity):
-    """Mean of the three normal stresses, tension positive."""
-
-    name = "mean_stress"
-    words = "mean stress"
-    unit, shown = "Pa", "MPa"
-    source = "Lytton, with the octahedral shear stress"
-    calibrated = "not by itself: a confining stress, part of a strength"
-    needs = STRESS
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """(σ_xx + σ_yy + σ_zz) / 3."""
-        return tensors.mean(stress)
-
-
-@QUANTITIES.register("distortion_energy")
-@dataclass(frozen=True)
-class DistortionEnergy(Quantity):
-    """Distortion energy per unit volume."""
-
-    name = "distortion_energy"
-    words = "distortion energy"
-    unit, shown = "J/m^3", "J/m³"
-    source = "Kunst"
-    calibrated = "not calibrated: it ranks places, loads and mixes"
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """½ s:e of the deviators."""
-        return tensors.distortion_energy(stress, strain)
-
-
 @QUANTITIES.register("vertical_shear_strain")
 @dataclass(frozen=True)
 class VerticalShear(Quantity):
-    """Largest engineering shear strain between the vertical and the horizontal."""
+    """Largest engineering shear strain between the vertical and the horizontal.
+
+    >>> import numpy as np
+    >>> strain = np.array([0.0, 0.0, 0.0, 0.0, 30e-6, 40e-6])  # zz, and half the engineering strains in xz and yz
+    >>> f"{tl.damage.VerticalShear().of(strain, strain) * 1e6:.0f} microstrain: 2 √(30² + 40²)"
+    '100 microstrain: 2 √(30² + 40²)'
+    """
 
     name = "vertical_shear_strain"
     words = "vertical shear strain"
@@ -352,45 +266,6 @@ class VerticalShear(Quantity):
     def of(self, stress: Array, strain: Array) -> Array:
         """2 √(ε_xz² + ε_yz²)."""
         return tensors.vertical_shear(strain)
-
-
-@QUANTITIES.register("dissipated_energy")
-@dataclass(frozen=True)
-class DissipatedEnergy(Quantity):
-    """Energy per unit volume that a passage of a moving wheel leaves in viscoelastic layers, the same all along x."""
-
-    name = "dissipated_energy"
-    words = "dissipated energy"
-    unit, shown = "J/m^3", "J/m³"
-    source = "responses of moving wheels"
-    calibrated = f"laboratories relate its sum to failure, W = A N^z, mix by mix, {COMMONLY_QUOTED}; no number here"
-    needs = ("dissipated_energy",)
-    remedy = "solve a moving wheel on a viscoelastic road"
-
-    def impossible_on(self, road: Pavement) -> str:
-        """An elastic road gives all energy back; a road without a temperature is not decided yet."""
-        if any(layer.depends_on_temperature for layer in road.layers) or road.is_viscoelastic:
-            return ""
-        return "the road is elastic and gives all energy back; give a layer a viscoelastic material"
-
-    def of(self, stress: Array, strain: Array) -> Array:
-        """Not given by the stress and strain of an instant: raises InputError."""
-        raise InputError("stress and strain do not give the dissipated energy; read it from a response")
-
-    def values(self, data: xr.Dataset) -> Array:
-        """What the response gives, at every x."""
-        self.check(data)
-        energy, dims = data[self.name], ordered(data)
-        whole = energy.expand_dims({dim: data.sizes[dim] for dim in dims if dim not in energy.dims})
-        return np.asarray(whole.transpose(*dims).to_numpy())
-
-    def crack(self, data: xr.Dataset) -> None:
-        """None: energy has no direction."""
-
-    def field(self, data: xr.Dataset) -> xr.DataArray:
-        """What the response gives, over (depth, y)."""
-        self.check(data)
-        return data[self.name]
 
 
 EXTENSION = Extension()

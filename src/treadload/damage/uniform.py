@@ -44,6 +44,13 @@ class UniformComparison(BaseResult, group="uniform"):
     """Largest strains and stress under a computed contact and under uniform loads of the same force.
 
     dataset: readings over (load, depth), see `treadload.variables`, with the loads' areas and pressures.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> comparison = tl.damage.compare_uniform(contact, road, depths=[0.05], pressure=1.5e5, mean_over=None)
+    >>> f"{comparison.dataset.uniform_area.item() * 1e4:.1f} cm² carry 100 N at 150 kPa"
+    '6.7 cm² carry 100 N at 150 kPa'
     """
 
     title: ClassVar[str] = "Comparison with uniform loads"
@@ -99,6 +106,13 @@ def compare_uniform(
     The disc carries the normal load alone; the rectangle also the net shear, spread evenly.
     Returns the largest readings at each depth, over the plane.
     Raises InputError without a pressure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> comparison = tl.damage.compare_uniform(contact, road, depths=[0.05], pressure=1.5e5, mean_over=None)
+    >>> [f"{strain * 1e6:.2f} microstrain" for strain in comparison.dataset.largest_extension.values.ravel()]
+    ['1.17 microstrain', '1.16 microstrain', '1.16 microstrain']
     """
     load = GridLoad.from_dataset(contact.dataset)
     uniform = contact.tire.inflation_pressure if pressure is None else pressure

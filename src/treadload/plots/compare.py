@@ -61,6 +61,14 @@ def compare_pressure(contacts: Sequence[Source], labels: Sequence[str]) -> Figur
 
     contacts: with pressure (y, x), Pa. labels: a name each. Returns the figure with one colour bar.
     Raises InputError for a missing pressure or labels that do not match.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> free = tl.solve_contact(tire, road, tl.Rolling(normal_load=50.0, friction=0.7), spacing=0.006)
+    >>> figure = tl.plots.compare_pressure([contact, free], ["100 N", "50 N"])
+    >>> [ax.get_title(loc="left") for ax in figure.axes[:2]]
+    ['100 N', '50 N']
     """
     _check(contacts, labels)
     cases = [fields_of(contact, "pressure") for contact in contacts]
@@ -107,6 +115,14 @@ def compare_strain(
     responses: with the strain and its direction over (depth, y, x). labels: a name each. depth: m.
     strain: "principal" (three-dimensional) or "in-plane". Returns the figure with one colour bar.
     Raises InputError for missing variables or depths, or labels that do not match.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> thick = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.25), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> responses = [tl.solve_response(plate, r, depths=[0.15], x=x, y=y) for r in (road, thick)]
+    >>> figure = tl.plots.compare_strain(responses, ["150 mm", "250 mm"], depth=0.15)
+    >>> [ax.get_title(loc="left") for ax in figure.axes[:2]]
+    ['150 mm', '250 mm']
     """
     _check(responses, labels)
     planes = [strain_plane(response, depth, strain) for response in responses]

@@ -77,6 +77,13 @@ def pressure(contact: Source, *, ax: Axes | None = None) -> Figure:
 
     contact: with pressure (y, x), Pa. ax: axes to draw into; a new figure if left out. Returns the figure.
     Raises InputError if the pressure is missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> figure = tl.plots.pressure(contact)
+    >>> f"{figure.axes[0].collections[0].get_array().max():.0f} kPa"
+    '212 kPa'
     """
     data = fields_of(contact, "pressure")
     plan, values = Plan.of(data), plane(data, "pressure") * KPA
@@ -107,6 +114,13 @@ def height_map(contact: Source, *, ax: Axes | None = None) -> Figure:
 
     contact: with initial_gap (y, x), m, NaN where there is no tread; the outline of the contact is drawn if
     there is a pressure. ax: axes to draw into. Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> figure = tl.plots.height_map(contact)
+    >>> f"{figure.axes[0].collections[0].get_array().max():.1f} mm at the corner of the map"
+    '4.5 mm at the corner of the map'
     """
     data = fields_of(contact, "initial_gap")
     plan, values = Plan.of(data), plane(data, "initial_gap") * MM
@@ -133,6 +147,13 @@ def stick_slip(contact: Source, *, ax: Axes | None = None) -> Figure:
 
     contact: with traction_x, traction_y (y, x), Pa, and state (y, x). The arrows are the shear exerted by the
     tire on the road, thinned. ax: axes to draw into. Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> wheel = tl.Rolling(normal_load=100.0, friction=0.7, tractive_force=-35.0)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> tl.plots.stick_slip(contact).axes[0].get_title(loc="left")
+    'Shear on the road, stick and slip'
     """
     data = fields_of(contact, "traction_x", "traction_y", "state")
     plan = Plan.of(data)
@@ -154,6 +175,13 @@ def shear(contact: Source) -> Figure:
     """Shear as a surface in space, beside its plan with the zones that stick and slip, kPa.
 
     contact: with traction_x, traction_y (y, x), Pa, and state (y, x). Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> wheel = tl.Rolling(normal_load=100.0, friction=0.7, tractive_force=-35.0)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> [ax.get_title(loc="left").splitlines()[0] for ax in tl.plots.shear(contact).axes[:2]]
+    ['Shear on the road', 'Stick and slip']
     """
     data = fields_of(contact, "traction_x", "traction_y", "state")
     if "negligible_shear" in data.attrs:

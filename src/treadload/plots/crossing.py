@@ -28,6 +28,13 @@ def crossing_history(crossing: Source) -> Figure:
     """Largest pressure, at an edge and anywhere, the shares of the load, and work per place of the road.
 
     crossing: a Crossing or its dataset. Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> step, free = tl.pavement.RoadStep(0.001), tl.Rolling(normal_load=100.0, friction=0.0)
+    >>> crossing = tl.contact.cross_obstacle(tire, road, free, step, positions=[-0.06, 0.06], spacing=0.006)
+    >>> [ax.get_ylabel() for ax in tl.plots.crossing_history(crossing).axes[:2]]
+    ['largest pressure (kPa)', 'share of the load (%)']
     """
     names = ("largest_pressure", "edge_pressure", "share_before", "share_beyond", "closing_work", "road_height")
     data = fields_of(crossing, *names, "position", "road_x")
@@ -90,6 +97,13 @@ def crossing_contacts(crossing: Source) -> Figure:
     """A strip of contacts from the first position to the last, kPa, each where it stands on the road.
 
     crossing: a Crossing or its dataset. Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> step, free = tl.pavement.RoadStep(0.001), tl.Rolling(normal_load=100.0, friction=0.0)
+    >>> crossing = tl.contact.cross_obstacle(tire, road, free, step, positions=[-0.06, 0.06], spacing=0.006)
+    >>> tl.plots.crossing_contacts(crossing).axes[0].get_title(loc="left")
+    '−60 mm'
     """
     data = fields_of(crossing, "pressure", "position", "x", "y", "road_x", "road_height")
     x, y = data["x"].to_numpy() * MM, data["y"].to_numpy() * MM

@@ -28,6 +28,13 @@ def creep_curves(curves: Sequence[Source], labels: Sequence[str], *, along: str 
     curves: with forces, friction, normal_load and slip_fraction over `creepage`. labels: a name each.
     along: "x" or "y". Returns the figure; for "y" with the aligning moment in the second panel.
     Raises InputError if labels do not match or variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> curve = tl.contact.creep_curve(tire, road, wheel, [0.5], spacing=0.006)
+    >>> figure = tl.plots.creep_curves([curve], ["ball"])
+    >>> f"Q = {abs(figure.axes[0].lines[0].get_ydata()).max():.2f} μP where all slides"
+    'Q = 1.00 μP where all slides'
     """
     force, name = _FORCE[along]
     cases = [fields_of(curve, force, "friction", "normal_load", "slip_fraction") for curve in curves]

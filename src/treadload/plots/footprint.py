@@ -66,6 +66,12 @@ def comparison_maps(comparison: Source) -> Figure:
     """The computed contact through the sensor and the footprint on one scale, and their difference, kPa.
 
     comparison: a FootprintComparison or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measured = tl.Footprint(tl.response.GridLoad(load.grid, 0.9 * load.pressure))
+    >>> comparison = tl.compare(load, measured, registration="none")
+    >>> [ax.get_title(loc="left") for ax in tl.plots.comparison_maps(comparison).axes[:3]]
+    ['Computed, through the sensor', 'Measured', 'Difference']
     """
     data = fields_of(comparison, "computed_pressure", "measured_pressure", "pressure_difference")
     plan = Plan.of(data)
@@ -134,6 +140,13 @@ def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | No
 
     comparison: a FootprintComparison or its dataset. x, y: m; left out, through the middle of the rib that carries
     most, and through the centre of pressure. Returns the figure.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measured = tl.Footprint(tl.response.GridLoad(load.grid, 0.9 * load.pressure))
+    >>> comparison = tl.compare(load, measured, registration="none")
+    >>> figure = tl.plots.comparison_cuts(comparison, x=0.01, y=0.01)
+    >>> [f"{line.get_ydata().max():.0f} kPa" for line in figure.axes[0].lines[:2]]
+    ['540 kPa', '600 kPa']
     """
     data = fields_of(comparison, "computed_pressure", "measured_pressure", *(_OF_RIBS if y is None else ()))
     plan = Plan.of(data)
@@ -175,7 +188,14 @@ def comparison_cuts(comparison: Source, *, x: float | None = None, y: float | No
 )  # fmt: skip
 @styled
 def rib_shares(comparison: Source, *, ax: Axes | None = None) -> Figure:
-    """Share of the load on each rib, %, computed and measured. ax: axes to draw into. Returns the figure."""
+    """Share of the load on each rib, %, computed and measured. ax: axes to draw into. Returns the figure.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> measured = tl.Footprint(tl.response.GridLoad(load.grid, 0.9 * load.pressure))
+    >>> comparison = tl.compare(load, measured, registration="none")
+    >>> [f"{bar.get_height():.0f} %" for bar in tl.plots.rib_shares(comparison).axes[0].patches]
+    ['100 %', '100 %']
+    """
     data = fields_of(comparison, *_OF_RIBS)
     ribs = data["rib"].to_numpy()
     figure, ax = figure_and_axes(ax, 5.6, 3.6)

@@ -27,6 +27,12 @@ def transient_history(transient: Source) -> Figure:
     """Forces of the road on the tire, and the share of the contact that slips, against the distance rolled.
 
     transient: a TransientResult or its dataset. Returns the figure. Raises InputError for missing variables.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> transient = tl.contact.solve_transient(tire, road, wheel, distances=[0.005, 0.01], spacing=0.006)
+    >>> [ax.get_ylabel() for ax in tl.plots.transient_history(transient).axes]
+    ['force of the road on the tire (kN)', 'share of the contact that slips (%)']
     """
     data = fields_of(transient, "distance", "tractive_force", "lateral_force", "slip_fraction")
     far = 1e3 * data["distance"].to_numpy()
@@ -51,6 +57,12 @@ def turn_history(turn: Source) -> Figure:
     """Torque that turns a standing wheel, and the share of the contact that slips, against its angle.
 
     turn: a TurnResult or its dataset. Returns the figure. Raises InputError for missing variables.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> turn = tl.contact.turn_on_the_spot(tire, road, wheel, angles=[0.5], spacing=0.006)
+    >>> [ax.get_ylabel() for ax in tl.plots.turn_history(turn).axes]
+    ['steering torque (kN m)', 'share of the contact that slips (%)']
     """
     data = fields_of(turn, "turn_angle", "steering_torque", "slip_fraction", "sliding_torque")
     angle, limit = np.degrees(data["turn_angle"].to_numpy()), 1e-3 * float(data["sliding_torque"])

@@ -60,6 +60,13 @@ def life_years(life: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of the years that every criterion lasts, and until the rut's limit, with the design life.
 
     life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=820e3)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> life = tl.damage.miner([[[[90e-6, 120e-6, 90e-6]]]], [base], traffic, climate, y=[-0.1, 0.0, 0.1])
+    >>> f"the bar is {tl.plots.life_years(life).axes[0].patches[0].get_width():.0f} years long"
+    'the bar is 10 years long'
     """
     data = fields_of(life, "life_years")
     names, years = _labels(data["criterion"]), data["life_years"].to_numpy()
@@ -113,6 +120,14 @@ def life_damage(life: Source, *, ax: Axes | None = None) -> Figure:
     of a year.
 
     life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=820e3)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> life = tl.damage.miner([[[[90e-6, 120e-6, 90e-6]]]], [base], traffic, climate, y=[-0.1, 0.0, 0.1])
+    >>> figure = tl.plots.life_damage(life)
+    >>> f"{max(figure.axes[0].lines[0].get_ydata()):.2f} in the first year"
+    '0.10 in the first year'
     """
     data = fields_of(life, "damage_per_year", "worst_y")
     factor, when = _factor(data)
@@ -166,6 +181,14 @@ def life_shares(life: Source, criterion: str | None = None) -> Figure:
 
     life: a Life or its dataset. criterion: by which; left out, the governing one. Returns the figure. Raises
     InputError for an unknown criterion and if variables are missing.
+
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=820e3)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e5), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> life = tl.damage.miner([[[[90e-6, 120e-6, 90e-6]]]], [base], traffic, climate, y=[-0.1, 0.0, 0.1])
+    >>> figure = tl.plots.life_shares(life)
+    >>> f"{figure.axes[0].collections[0].get_array().max():.0f} % by the only class in the only season"
+    '100 % by the only class in the only season'
     """
     data = fields_of(life, "damage_share", "life_years")
     names = [str(name) for name in data["criterion"].to_numpy()]

@@ -48,6 +48,11 @@ def black_diagram(
     curves: models as lines, sweeps and master curves of sweeps as points. labels: a name each.
     frequencies: (lowest, highest), Hz, over which models are drawn; those of the data, or where the modulus changes,
     if left out. ax: axes to draw into. Returns the figure. Raises InputError.
+
+    >>> mix = tl.materials.Prony(20e9, ((0.6, 0.1), (0.39, 10.0)), 0.35)
+    >>> figure = tl.plots.black_diagram(mix, ["mix"], frequencies=(0.01, 100.0))
+    >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
+    ('phase angle (°)', '|E*| (MPa)')
     """
     figure, ax = figure_and_axes(ax, 6.6, 4.7)
     for curve in _in_frequency(curves, labels, frequencies):
@@ -71,6 +76,11 @@ def cole_cole(
     """Loss against storage modulus, both linear: what a model does to the stiff side.
 
     The arguments are those of black_diagram. Returns the figure. Raises InputError.
+
+    >>> mix = tl.materials.Prony(20e9, ((0.6, 0.1), (0.39, 10.0)), 0.35)
+    >>> storage = tl.plots.cole_cole(mix, ["mix"], frequencies=(1e-6, 1e6)).axes[0].lines[0].get_xdata()
+    >>> f"from {storage.min():.1f} to {storage.max():.0f} GPa"
+    'from 0.2 to 20 GPa'
     """
     figure, ax = figure_and_axes(ax, 6.6, 4.2)
     for curve in _in_frequency(curves, labels, frequencies):

@@ -66,6 +66,12 @@ def strain_panels(
     length but for what stands out of the horizontal, wherever it exceeds 2 % of the largest; their colour shows
     whether they point along travel, across it, obliquely or near-vertically. Returns the figure. Raises InputError as
     `strain_directions`.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=y)
+    >>> tl.plots.strain_panels(response, depth=0.15).axes[1].get_title(loc="left")
+    'Its direction'
     """
     data = strain_plane(response, depth, strain)
     plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO

@@ -37,6 +37,12 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
     """Shape of the surface across travel that passes leave, pass by pass, down positive.
 
     passes: with residual_displacement_z over (pass, across), m. Returns the figure.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> tl.plots.rut_profile(passes).axes[0].get_ylabel()
+    'surface, down (µm)'
     """
     data = fields_of(passes, "residual_displacement_z", "rut_depth", "pass", "across")
     profile, across = data["residual_displacement_z"].to_numpy() * MM, data["across"].to_numpy() * MM
@@ -118,6 +124,12 @@ def plastic_strain(passes: Source, *, ax: Axes | None = None) -> Figure:
 
     passes: with equivalent_plastic_strain over (pass, depth, y). Returns the figure.
     Raises InputError where nothing has yielded.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> tl.plots.plastic_strain(passes).axes[0].get_title(loc="left")
+    'Plastic strain'
     """
     data = fields_of(passes, "equivalent_plastic_strain", "depth", "y").isel({"pass": -1})
     field = 100 * data["equivalent_plastic_strain"].transpose("depth", "y").to_numpy()
@@ -160,6 +172,12 @@ def residual_stress(
 
     passes: with residual_stress_* over (pass, depth, y), Pa. component: of the tensor. y: of the line, m, the nearest
     there is. Returns the figure. Raises InputError for another component.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> tl.plots.residual_stress(passes, "xx").axes[0].get_xlabel()
+    'residual stress along travel (kPa)'
     """
     if component not in _WORDS:
         raise InputError(f"no component {component!r} of residual stress here; {nearest(component, _WORDS)}")

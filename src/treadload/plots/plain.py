@@ -38,6 +38,12 @@ def plain_map(fields: Source, name: str, *, depth: float | None = None, ax: Axes
 
     fields: a result or its dataset. name: of a variable over (y, x), or (depth, y, x) and the like. depth: m; left
     out, the first of what it is over besides. Returns the figure. Raises InputError for a variable that is not a map.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> tl.plots.plain_map(contact, "initial_gap").axes[0].get_title(loc="left")
+    'Separation before loading'
     """
     data = fields_of(fields, name)
     if not {"x", "y"} <= set(data[name].dims):
@@ -72,6 +78,13 @@ def losses(resistance: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of the force that resists rolling and of what the materials lose per length, N.
 
     resistance: a RollingResistance or its dataset. Returns the figure. Raises InputError for missing variables.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> resistance = tl.contact.rolling_resistance(contact, radius=0.3)
+    >>> tl.plots.losses(resistance).axes[0].get_xlabel()
+    'force, or energy per metre (N)'
     """
     data = fields_of(resistance, "rolling_resistance", "material_loss")
     values = [float(data[name]) for name in ("rolling_resistance", "material_loss")]

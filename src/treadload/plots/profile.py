@@ -147,6 +147,13 @@ def strain_profiles(
     the tire's centre, a rib's middle and its edge, taken from the contact or from the stress at the surface.
     strains: "xx", "yy", "zz", "in-plane", "principal". epsilon_6: strain at a million passes, drawn with the
     largest extensions. Returns the figure. Raises InputError for missing variables, depths or an unknown strain.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.0, 0.1, 0.149], x=x, y=y)
+    >>> figure = tl.plots.strain_profiles(response, {"centre": (0.0, 0.0)}, strains=["xx"])
+    >>> f"{figure.axes[0].lines[0].get_xdata().max():.0f} microstrain"
+    '265 microstrain'
     """
     unknown = [name for name in strains if name not in COMPONENTS]
     if unknown or not strains:

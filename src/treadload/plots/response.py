@@ -143,6 +143,13 @@ def strain_directions(
     out of the horizontal; or "in-plane", the largest in the horizontal plane. contact: gives the outline of the
     contact; if left out the stress at the surface gives it, when it is there. ax: axes to draw into.
     Returns the figure. Raises InputError for a missing variable or depth or another word for strain.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=y)
+    >>> figure = tl.plots.strain_directions(response, depth=0.15)
+    >>> f"{figure.axes[0].collections[0].get_array().max():.0f} microstrain"
+    '269 microstrain'
     """
     data = strain_plane(response, depth, strain)
     plan, values = Plan.of(data), plane(data, VARIABLE[strain]) * MICRO
@@ -213,6 +220,13 @@ def depth_slice(
     which the dataset extends. at: y (or x) of the section, m, the nearest there is; if left out through the largest
     extension at the shallowest depth. ax: axes to draw into. Strokes show the direction's share in the section.
     Returns the figure. Raises InputError for a missing variable or fewer than two depths or points.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.02, 0.08, 0.149], x=x, y=y)
+    >>> figure = tl.plots.depth_slice(response, "travel")
+    >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
+    ('x, direction of travel (mm)', 'depth (mm)')
     """
     section = Section.of(response, along, at)
     layered = len(section.layers.interfaces) > 0

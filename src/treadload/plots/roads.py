@@ -54,6 +54,14 @@ def compare_roads(
     the horizontal one in the section. place: of the profile along the section, m; if left out under the centre of
     the first road's load. Returns the figure, microstrain.
     Raises InputError for missing variables, sections in different directions or labels that do not match.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> thick = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.25), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> responses = [tl.solve_response(plate, r, depths=[0.02, 0.15], x=x, y=y) for r in (road, thick)]
+    >>> figure = tl.plots.compare_roads(responses, ["150 mm", "250 mm"])
+    >>> [ax.get_title(loc="left") for ax in figure.axes[:2]]
+    ['150 mm', '250 mm']
     """
     if not responses or len(responses) != len(labels):
         raise InputError(f"give a label for each road: got {len(labels)} labels for {len(responses)} roads")
@@ -116,6 +124,14 @@ def compare_temperatures(
     each, in any order. strain: "xx", "yy", "zz", "in-plane" or "principal". place: x and y of the profile, m; if
     left out under the centre of the first road's load. The largest strain is that of all the response's points.
     Returns the figure, microstrain. Raises InputError for missing variables or temperatures that do not match.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> warm = tl.Pavement([tl.Layer(tl.Elastic(2e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> responses = [tl.solve_response(plate, r, depths=[0.02, 0.15], x=x, y=y) for r in (road, warm)]
+    >>> figure = tl.plots.compare_temperatures(responses, [10.0, 30.0])
+    >>> [f"{line.get_xdata().max():.0f} microstrain" for line in figure.axes[0].lines[:2]]
+    ['269 microstrain', '522 microstrain']
     """
     if not responses or len(responses) != len(temperatures):
         raise InputError(f"give a temperature for each response: got {len(temperatures)} for {len(responses)}")

@@ -46,6 +46,14 @@ def trace_rose(roses: Source | Sequence[Source], labels: Sequence[str] | None = 
     tinted sectors are those of the orientations. Horizontal cracks leave no trace; their share is written out.
     Returns the figure.
     Raises InputError for missing variables, or labels that do not match.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=y)
+    >>> rose = tl.damage.crack_rose(tl.damage.envelope(response).isel(depth=0))
+    >>> figure = tl.plots.trace_rose(rose, ["plate"])
+    >>> figure.axes[0].get_title(loc="left")
+    'plate'
     """
     cases = _cases(roses)
     names = _names(cases, labels)

@@ -55,6 +55,12 @@ def texture_contact(result: Source) -> Figure:
 
     result: a TextureContact or its dataset. A profile is drawn as a line with its pressure. Returns the figure.
     Raises InputError for missing variables.
+
+    >>> from treadload.pavement.texture import self_affine
+    >>> texture = self_affine(0.016, 0.001, hurst=0.8, shortest=0.004, rms_height=1e-4)
+    >>> result = tl.contact.solve_texture(texture, tl.Elastic(6e6, 0.5), [1e5, 2e5])
+    >>> [ax.get_title(loc="left") for ax in tl.plots.texture_contact(result).axes[:2]]
+    ['Texture', 'Pressure on the peaks']
     """
     data = fields_of(
         result, "texture_height", "pressure", "real_area_ratio", "persson_area_ratio", "asperity_area_ratio",
@@ -161,6 +167,13 @@ def enveloped_pressure(enveloped: Source, before: Source | None = None) -> Figur
 
     enveloped: an Enveloped or its dataset. before: the contact that it is of. Each has a scale of its own, since
     peaks are what goes. Returns the figure.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> enveloped = tl.contact.envelop(contact, length=0.012)
+    >>> [ax.get_title(loc="left") for ax in tl.plots.enveloped_pressure(enveloped, contact).axes[:2]]
+    ['Contact pressure', 'Enveloped pressure']
     """
     after = fields_of(enveloped, "pressure")
     shown = [("Enveloped pressure", after)]

@@ -26,6 +26,12 @@ def tire_card(card: Source) -> Figure:
 
     card: a TireCard or its dataset; without stiffnesses the last panel shows the ribs. Returns the figure. Raises
     InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
+    >>> card = tl.footprint.tire_card(tire, road, [50.0, 100.0], stiffness=False, spacing=0.006)
+    >>> [ax.get_ylabel() for ax in tl.plots.tire_card(card).axes]
+    ['vertical load (kN)', 'area (cm²)', 'outer ribs over middle rib (–)', 'share of the load (%)']
     """
     data = fields_of(card, *_NEEDED)
     figure = new_figure(9.6, 7.4)

@@ -27,6 +27,14 @@ def uniform_comparison(comparison: Source) -> Figure:
     """Three panels of the largest strain at each depth, a line for each load.
 
     comparison: a UniformComparison or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> comparison = tl.damage.compare_uniform(contact, road, depths=[0.0, 0.05], pressure=1.5e5, mean_over=None)
+    >>> figure = tl.plots.uniform_comparison(comparison)
+    >>> [len(ax.lines) for ax in figure.axes[:3]]  # the computed contact, the disc and the rectangle
+    [3, 3, 3]
     """
     data = fields_of(comparison, *_PANELS)
     depths = 1e3 * np.asarray(data["depth"].to_numpy())

@@ -93,6 +93,13 @@ def fatigue_line(
     verdicts: one or several, with worst_strain, worst_passes and the attributes epsilon_6 and slope.
     labels: a name each. design_passes: traffic whose admissible strain is marked. ax: axes to draw into.
     Returns the figure. Raises InputError if labels and assessments differ in number or attributes are missing.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=[0.0])
+    >>> verdict = tl.assess(response, tl.FatigueLine(120e-6, -0.2), depth=0.15)
+    >>> tl.plots.fatigue_line(verdict).axes[0].get_ylabel()
+    'largest tensile strain (microstrain)'
     """
     cases = [fields_of(v, "worst_strain", "worst_passes") for v in _listed(verdicts)]
     names = list(labels) if labels is not None else [""] * len(cases)
@@ -191,6 +198,13 @@ def cracks(verdict: Source, *, ax: Axes | None = None) -> Figure:
     verdict: with extension_strain, crack_angle, crack_dip and crack_orientation (y, x). A stroke shortens as the
     crack's plane flattens; drawn where the strain is a fifth of the largest or more. ax: axes to draw into.
     Returns the figure.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=y)
+    >>> verdict = tl.assess(response, tl.FatigueLine(120e-6, -0.2), depth=0.15)
+    >>> tl.plots.cracks(verdict).axes[0].get_title(loc="left")
+    'Cracks to expect'
     """
     data = fields_of(verdict, "extension_strain", "crack_angle", "crack_dip", "crack_orientation")
     plan, values = Plan.of(data), plane(data, "extension_strain") * MICRO

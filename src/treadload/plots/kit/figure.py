@@ -65,7 +65,13 @@ class ShownFigure(Figure):
 
 
 def new_figure(width: float, height: float, layout: str = "constrained") -> Figure:
-    """An empty figure. width, height: inches. layout: of matplotlib, "constrained" or "compressed"."""
+    """An empty figure. width, height: inches. layout: of matplotlib, "constrained" or "compressed".
+
+    >>> figure = tl.plots.new_figure(6.0, 4.0)
+    >>> ax = figure.add_subplot()
+    >>> [f"{length:g} inches" for length in figure.get_size_inches()]
+    ['6 inches', '4 inches']
+    """
     return ShownFigure(figsize=(width, height), layout=layout)  # type: ignore[arg-type]
 
 

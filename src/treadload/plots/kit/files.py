@@ -52,7 +52,11 @@ def save(figure: Figure, path: str | PathLike[str], *, dpi: float | None = None)
 
 @styled
 def png(figure: Figure, *, dpi: float = 160.0) -> bytes:
-    """A figure as the bytes of a PNG. dpi: points per inch."""
+    """A figure as the bytes of a PNG. dpi: points per inch.
+
+    >>> tl.plots.png(tl.plots.new_figure(1.0, 1.0), dpi=20)[1:4]
+    b'PNG'
+    """
     return _pixels(figure, dpi)
 
 
@@ -68,6 +72,11 @@ def raster(figure: Figure, *, dpi: float = 160.0) -> Image.Image:
     """A figure as an image of 8 bits a colour, trimmed to its ink. dpi: points per inch.
 
     Drawn once, where matplotlib draws a figure twice to find its trimmed size.
+
+    >>> figure = tl.plots.new_figure(2.0, 1.0)
+    >>> _ = figure.add_subplot()
+    >>> tl.plots.raster(figure, dpi=50).mode
+    'RGB'
     """
     canvas, resolution = figure.canvas, figure.dpi
     try:

@@ -55,6 +55,12 @@ def places_under(contact: Source) -> dict[str, tuple[float, float]]:
     "rib's middle" and "rib's edge" of the rib that carries most beside the one over the centre, the edge in its
     last cell away from the centre. A smooth tire has the centre and the edge only.
     Raises InputError if nothing presses.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road, wheel = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=100.0, friction=0.7)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> [f"{name}: y = {y * 1e3:.0f} mm" for name, (x, y) in tl.plots.places_under(contact).items()]
+    ["tire's centre: y = 0 mm", "rib's edge: y = 12 mm"]
     """
     data = pressure_of(contact)
     pressure, x, y = plane(data, "pressure"), data["x"].to_numpy(), data["y"].to_numpy()
