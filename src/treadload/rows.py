@@ -18,9 +18,10 @@ from treadload.us_units import display_units, in_display_units, sentence_in_disp
 from treadload.variables import SCALES, Display, display_of
 
 _WIDEST, _LONGEST = 34, 26
+"""Letters, at most: of a label that sets the column of the values in a summary, of a cell in a table of one."""
+
 # A table wider than a terminal is turned: a line a quantity in place of a line a group.
 _TERMINAL = 100
-"""Letters, at most: of a label that sets the column of the values in a summary, of a cell in a table of one."""
 
 
 @dataclass(frozen=True)
