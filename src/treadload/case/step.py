@@ -123,6 +123,11 @@ class Source(Step):
     states_road: True where summaries list the layers of the road. hidden: keys of tables, "pavement.temperature",
     that the case takes from elsewhere. tolerances: the smallest, the default and the largest
     that the case may ask for.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> next(step.name for step in tl.Case.from_dict(wheel | road).steps if isinstance(step, tl.steps.Source))
+    'contact'
     """
 
     after: ClassVar[tuple[str, ...]] = ()

@@ -55,6 +55,13 @@ class Indentation(BaseResult, group="indentation"):
     and residual_displacement_z, what the surface keeps if it were unloaded, over (step, y, x);
     equivalent_plastic_strain over (step, depth, y, x). stats: rounds, substeps, step_error, seconds. warnings:
     sentences. tire, road, loads: the question.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(3e6, kinematic=60e6))
+    >>> steel = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(210e9, 0.3))
+    >>> road, cells = tl.Pavement.half_space(yielding), {"spacing": 0.002, "depth": 0.009, "layers": 3}
+    >>> result = tl.contact.solve_indentation(steel, road, [150.0], **cells)
+    >>> f"{result.dataset.peak_pressure.item() / 1e6:.1f} MPa"  # Hertz: 5.3 MPa, where nothing yields
+    '5.5 MPa'
     """
 
     title: ClassVar[str] = "Indentation"

@@ -154,7 +154,14 @@ class FieldShift:
 
 
 def read_field_shifts(path: str | os.PathLike[str]) -> list[FieldShift]:
-    """The shift of a TOML file, in a list; its keys are the fields of `FieldShift`. Raises InputError."""
+    """The shift of a TOML file, in a list; its keys are the fields of `FieldShift`. Raises InputError.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> (shift,) = tl.damage.read_field_shifts(folder / "field_shifts" / "ltpp.toml")
+    >>> f"median of {shift.years(0.5):.0f} years"
+    'median of 5 years'
+    """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 

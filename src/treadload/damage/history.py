@@ -41,6 +41,15 @@ def residual_after(response: Source, *, spacing: float, passes: int) -> xr.Datas
     stress of the earliest pass over that of the sum: where it is not small, more passes would leave more.
     Raises InputError where the response does not reach far enough.
     Source: the mechanism is Wang's, as cited by the paper of this method; the definition is this package's.
+
+    >>> mix = tl.materials.Prony(20e9, ((0.6, 0.1), (0.39, 10.0)), 0.35)
+    >>> road = tl.Pavement([tl.Layer(mix, 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x = tl.UniformDisc(0.15, 7e5), [-2.0, -1.0, 0.0, 1.0]
+    >>> response = tl.solve_response(plate, road, depths=[0.14], x=x, y=[0.0], speed=20.0)
+    >>> left = tl.damage.residual_after(response, spacing=2.0, passes=1)
+    >>> same = response.dataset.stress_yy.sel(x=-2.0).item()  # what the wheel ahead has left 2 m behind it
+    >>> abs(left.residual_stress_yy.sel(x=0.0).item() - same) < 1e-6 * abs(same)
+    True
     """
     positive("spacing", spacing, "metres", "it is speed times headway")
     if passes < 1:

@@ -19,6 +19,11 @@ class Frames:
     coordinates of its own, m. pin: sides of the face of a pin along x and y, m; None of sensels that fill their cell.
     numbers: of the frames, as the file counts them. source: what was read and how, in words. warnings: sentences for
     the user.
+
+    >>> import numpy as np
+    >>> frames = tl.footprint.Frames(np.array([[[0.0, 200.0], [300.0, 0.0]]]), 0.01, 0.01)
+    >>> frames.values.shape  # frames, rows and columns
+    (1, 2, 2)
     """
 
     values: Array

@@ -42,6 +42,11 @@ class Registration:
     shift_x, shift_y: by which its middle was then moved, m. angle: rad, by which its axes are turned from travel
     towards the right. overlap: share of the pressure that overlaps. candidates: overlap of poses by their
     words, on coarse maps.
+
+    >>> load = tl.response.GridLoad(tl.response.Grid.centred(0.16, 0.16, 0.02), [[0] * 2 + [6e5] * 4 + [0] * 2] * 8)
+    >>> found = tl.footprint.register(load, tl.Footprint(load), turns=False)
+    >>> f"{found.overlap:.0%} of the pressure overlaps"
+    '100% of the pressure overlaps'
     """
 
     quarter_turns: int = 0

@@ -39,6 +39,12 @@ class TireCard(BaseResult, group="tire_card"):
 
     dataset: over (inflation_pressure, wheel_load), and rib shares over rib as well; see `treadload.variables`. The
     attributes `tydex` and `iso_8855` of a variable are its names there. warnings: of all contacts.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> road = tl.Pavement.half_space(tl.Elastic(5e9, 0.35))
+    >>> card = tl.footprint.tire_card(tire, road, [50.0, 100.0], stiffness=False, spacing=0.006)
+    >>> [f"{load:.0f} N" for load in card.dataset.wheel_load.values]
+    ['50 N', '100 N']
     """
 
     title: ClassVar[str] = "Tire card"

@@ -73,6 +73,18 @@ class BondComparison(BaseResult, group="bond_comparison"):
     "bonded, then parted"; parting_passes, parting_years. What is left of the bond acts by friction or as a spring:
     the failed bond's own criterion means nothing there. bonded, parted: the lives of both roads. interface: that
     fails, counted from the surface. bond: what is left of it. criterion: name of the bond that fails first.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> strength, fatigue = tl.damage.InterfaceStrength(3e6), tl.damage.ShearFatigue(slope=-0.2)
+    >>> bond = tl.damage.Criterion.of_bond("bond", strength, fatigue)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> asphalt, soil = tl.Elastic(5e9, 0.35), tl.Elastic(60e6, 0.4)
+    >>> road = tl.Pavement([tl.Layer(asphalt, 0.02), tl.Layer(asphalt, 0.03), tl.Layer(soil)])
+    >>> comparison = tl.life.compare_bonds(tl.Design(tire, road, traffic, climate, [bond, base], spacing=0.01))
+    >>> f"the bond fails after {comparison.dataset.parting_years.item():.1f} years"
+    'the bond fails after 9.1 years'
     """
 
     title: ClassVar[str] = "Debonding"
@@ -160,6 +172,19 @@ def compare_bonds(
     worst place: a layered model knows neither a debonded patch nor the stress concentration at its edge. Miner's sum
     runs on at the debonded road's rate, n₁ / N₁ + n₂ / N₂ = 1, at every point across the road, both rates those of a
     whole year; of several interfaces only the first fails. Raises InputError, and ConvergenceError of a contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> strength, fatigue = tl.damage.InterfaceStrength(3e6), tl.damage.ShearFatigue(slope=-0.2)
+    >>> bond = tl.damage.Criterion.of_bond("bond", strength, fatigue)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> asphalt, soil = tl.Elastic(5e9, 0.35), tl.Elastic(60e6, 0.4)
+    >>> road = tl.Pavement([tl.Layer(asphalt, 0.02), tl.Layer(asphalt, 0.03), tl.Layer(soil)])
+    >>> comparison = tl.life.compare_bonds(tl.Design(tire, road, traffic, climate, [bond, base], spacing=0.01))
+    >>> passes = comparison.dataset.life_passes.sel(criterion="base").values
+    >>> [f"{number:.1e}" for number in passes]  # bonded, debonded, and bonded until the bond fails
+    ['6.0e+08', '5.3e+07', '1.4e+08']
     """
     road, traffic, criteria = design.road, design.traffic, design.criteria
     bonds = [criterion for criterion in criteria if criterion.quantity.between_layers]

@@ -56,6 +56,17 @@ class Equivalents(BaseResult, group="equivalents"):
     of the climate, and the reading there; NaN for a climate without several temperatures. years_at_equivalent
     (criterion): at the equivalent temperature of the governing criterion all year round, beside life_years
     (criterion), the full sum.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> equivalents = tl.life.life_equivalents(design, life)
+    >>> f"standard axle of {equivalents.dataset.attrs['standard_axle_load'] / 1e3:.0f} kN"
+    'standard axle of 130 kN'
     """
 
     title: ClassVar[str] = "Standard axles"
@@ -126,6 +137,17 @@ def life_equivalents(design: Design, life: Life, *, workers: int | None = None) 
     The standard axle is that of the life's traffic, see `StandardAxle`. life: of the design. workers: threads; all
     cores if left out. One response under the standard axle is solved for each season that does most damage by a
     criterion; temperatures need none: the damage of the seasons is interpolated over them.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> equivalents = tl.life.life_equivalents(design, life)
+    >>> f"{equivalents.dataset.single_axle_loads.item():.1e} standard axles by the fourth power of 1 kN over 80 kN"
+    '2.4e-08 standard axles by the fourth power of 1 kN over 80 kN'
     """
     readings, shares = life.readings.to_numpy(), life.dataset["damage_share"].to_numpy()
     classes = life.traffic.classes

@@ -59,6 +59,18 @@ def grow_cracks(
     functions of the layers make stress intensities of it with faces that close and rub, rainflow makes cycles and the
     growth law a length per passage; these are summed over shares and spread over the tracks of the traffic.
     Raises InputError, and ConvergenceError of a contact and of faces that do not settle.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> law = tl.damage.ParisLaw(1e-7, 4.0)
+    >>> growth = tl.life.grow_cracks(design, life, tl.damage.CrackGrowth("base", law=law, steps=3, points=20))
+    >>> growth
+    <Growth: a crack starts after 1.25 years and is through after 79.1 years.>
     """
     solve = functools.partial(_grow, design, life, workers=workers, progress=progress)
     if growth.trace != "both":

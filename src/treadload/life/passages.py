@@ -39,6 +39,16 @@ class Passages:
     relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
     far a wheel was moved to stand on the common cells, m. reach: how far around the wheels was read, m.
     laws: (criterion, axle_class, season), of the moduli that were solved. warnings: sentences for the user.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> passages = tl.life.solve_passages(design)
+    >>> f"{passages.responses} response solved for 1 class of axles in 1 season"
+    '1 response solved for 1 class of axles in 1 season'
     """
 
     readings: xr.DataArray
@@ -72,6 +82,16 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
     criterion, only in those from which splines give the harm of the heaviest class within the tolerance, see
     `climate.nodes`.
     Raises InputError, and ConvergenceError of a contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> passages = tl.life.solve_passages(design)
+    >>> f"{passages.readings.max().item() * 1e6:.0f} microstrain at the bottom of the asphalt"
+    '72 microstrain at the bottom of the asphalt'
     """
     tire, road, criteria, contacts = design.tire, design.road, design.criteria, design.contacts
     classes, seasons = design.traffic.classes, design.climate.seasons

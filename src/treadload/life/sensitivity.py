@@ -53,6 +53,17 @@ class Sensitivity(BaseResult, group="sensitivity"):
     important first, as inputs change by 5 %, temperature by 1 °C. criterion: the governing one. coverage: share of
     its damage in the classes and seasons that were solved again. contacts, responses: how many were solved. skipped:
     inputs that could not be changed, and why.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> sensitivity = tl.life.life_sensitivity(design, life)
+    >>> str(sensitivity.dataset.input.values[0])  # what matters most
+    'thickness of asphalt'
     """
 
     title: ClassVar[str] = "Sensitivity of the service life"
@@ -115,6 +126,17 @@ def life_sensitivity(
     Inputs: wheel load, inflation pressure and friction of all classes; thickness and modulus of every layer, the
     numbers of its law unchanged; temperature by ±1 °C; passes, wander, and the strain or stress that the law
     allows, which need no solve. Raises InputError for a life that never ends, and ConvergenceError of a contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> sensitivity = tl.life.life_sensitivity(design, life)
+    >>> f"{sensitivity.dataset.elasticity.sel(input='passes').item():.0f}: twice the passes, half the life"
+    '-1: twice the passes, half the life'
     """
     if not 0 < coverage <= 1:
         raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.8 is the default")

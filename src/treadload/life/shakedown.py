@@ -34,6 +34,12 @@ def shakedown_map(
     above three times is looked at.
     Returns Fields over friction: elastic_limit_load and shakedown_load, over the load at first yield without shear;
     `plots.shakedown_map` draws them. Raises InputError.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> patch, road = tl.UniformRectangle(0.2, 0.2, 0.3e6), tl.Pavement.half_space(yielding)
+    >>> limits = tl.life.shakedown_map(patch, road, [0.0, 0.4], spacing=0.1, layers=3).dataset
+    >>> [f"{load:.2f}" for load in limits.shakedown_load.values]  # over the load at first yield without shear
+    ['1.68', '1.47']
     """
     ratios = np.asarray(list(frictions), float)
     if not ratios.size or not (np.isfinite(ratios) & (ratios >= 0)).all():

@@ -43,6 +43,16 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     stats of the result: contacts and responses solved, combinations that they serve, the largest relative error of
     readings interpolated over the climate, how far wheels were moved onto the common cells (m), seconds.
     Raises InputError, and ConvergenceError of a contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> f"{life.years('base'):.1f} years until the bottom of the asphalt cracks"
+    '1.2 years until the bottom of the asphalt cracks'
     """
     start = time.perf_counter()
     tire, road, traffic, climate = design.tire, design.road, design.traffic, design.climate

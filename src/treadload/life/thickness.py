@@ -35,6 +35,16 @@ class ThicknessDesign(BaseResult, group="design"):
     rising, and trial_years (trial, criterion), at the risk that was asked for. road: with the rounded thickness.
     life: of that road. layer: its name; step: m. risk: that was asked for, None for that of the laws. stats: how much
     was solved. warnings: sentences for the user.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> answer = tl.life.design_thickness(design, "asphalt", years=20, between=(0.03, 0.06))
+    >>> f"{answer.dataset.exact_thickness.item() * 1e3:.1f} mm, rounded up to a step of {answer.step * 1e3:.0f} mm"
+    '43.7 mm, rounded up to a step of 10 mm'
     """
 
     title: ClassVar[str] = "Thickness design"
@@ -145,6 +155,16 @@ def design_thickness(
 
     Raises InputError for a layer without a thickness, and where no thickness between low and high lasts, with the
     longest life found and what limits it; ConvergenceError of a contact.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> answer = tl.life.design_thickness(design, "asphalt", years=20, between=(0.03, 0.06))
+    >>> f"{answer.dataset.design_thickness.item() * 1e3:.0f} mm of asphalt last 20 years"
+    '50 mm of asphalt last 20 years'
     """
     (low, high), number = between, _number(design.road, layer)
     target = design.traffic.years if years is None else years

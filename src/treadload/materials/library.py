@@ -111,6 +111,12 @@ def read_mixes(path: str | os.PathLike[str]) -> list[RoadMaterial]:
     Keys: source; caveats, sentences, also of one mix; bituminous with temperatures (°C), frequency (Hz) of the moduli
     (Pa), poisson, slope, mixes and ratios; hydraulic; unbound; stress_dependent. Raises InputError that names file
     and key.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> mixes = tl.catalogue.read_mixes(folder / "mixes" / "nf_p98_086.toml")
+    >>> f"{len(mixes)} mixes, the first is {mixes[0].name}"
+    '29 mixes, the first is EB-BBSG1'
     """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read

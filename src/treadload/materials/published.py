@@ -58,6 +58,12 @@ def read_materials(path: str | os.PathLike[str]) -> list[PublishedMaterial]:
 
     temperature: at which the numbers hold. source: the paper. caveats: sentences.
     Raises InputError that names file and key.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> materials = tl.catalogue.read_materials(folder / "viscoelastic" / "published.toml")
+    >>> materials[0].name
+    'ViscoRoute'
     """
     # pydantic is loaded when a file is read, not before.
     from treadload.materials.tables import shift_of, shifted

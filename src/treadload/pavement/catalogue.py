@@ -90,7 +90,14 @@ def find_structure(name: str) -> Structure:
 
 
 def read_structures(path: str | os.PathLike[str]) -> list[Structure]:
-    """Structures of a TOML file; see `catalogue/data/structures`. Raises InputError that names file and key."""
+    """Structures of a TOML file; see `catalogue/data/structures`. Raises InputError that names file and key.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> structures = tl.catalogue.read_structures(folder / "structures" / "nf_p98_086.toml")
+    >>> f"{len(structures)} structures, the first is {structures[0].name}"
+    '6 structures, the first is 6 BBSG3 / 15 GB3 / PF3'
+    """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 

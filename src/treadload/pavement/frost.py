@@ -136,6 +136,16 @@ class FrostYear:
     none. thaw_depth: of the uppermost frozen point, m, NaN where there is none. factors: modulus of each layer over
     that of the recovered one (day, layer). names: of the layers. air_index, surface_index: frost index of the air and
     of the surface, °C days: by how much the sum of daily means falls over the winter.
+
+    >>> import math
+    >>> from datetime import datetime
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> air = [6 - 14 * math.cos(2 * math.pi * (hour / 24 - 15) / 365) for hour in range(0, 8760, 3)]  # °C
+    >>> weather = tl.pavement.Weather(datetime(2023, 1, 1), 3.0, air, surface_temperature=air)
+    >>> temperatures = tl.pavement.road_temperatures(road, weather, [0.03, 0.2])
+    >>> frost = tl.pavement.frost_year(road, temperatures, tl.pavement.Frost())
+    >>> f"frost reaches a depth of {frost.frost_depth.max():.2f} m"
+    'frost reaches a depth of 1.11 m'
     """
 
     months: IntArray
@@ -172,6 +182,16 @@ def frost_year(road: Pavement, temperatures: RoadTemperatures, frost: Frost, hea
     found without the heat of freezing. heat: of the bound layers. The year is run twice, so that the start does not
     matter. Raises InputError and ConvergenceError.
     Method: `kernels.freezing`.
+
+    >>> import math
+    >>> from datetime import datetime
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> air = [6 - 14 * math.cos(2 * math.pi * (hour / 24 - 15) / 365) for hour in range(0, 8760, 3)]  # °C
+    >>> weather = tl.pavement.Weather(datetime(2023, 1, 1), 3.0, air, surface_temperature=air)
+    >>> temperatures = tl.pavement.road_temperatures(road, weather, [0.03, 0.2])
+    >>> frost = tl.pavement.frost_year(road, temperatures, tl.pavement.Frost())
+    >>> f"frost index of the air: {frost.air_index:.0f} °C days"
+    'frost index of the air: 683 °C days'
     """
     if not any(temperatures.depths == 0.0):
         raise InputError("frost needs the temperature of the surface: give depth 0 among those of the road")

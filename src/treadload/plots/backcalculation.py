@@ -35,6 +35,13 @@ def fitted_basins(backcalculation: Source, *, stations: tuple[str, ...] = ()) ->
 
     backcalculation: a Backcalculation or its dataset. stations: to draw, at most eight drops; left out, those spread
     over the range of misfits. Returns the figure. Raises InputError if variables or stations are missing.
+
+    >>> asphalt = tl.Layer(tl.Elastic(5e9, 0.35), 0.15, name="asphalt")
+    >>> road = tl.Pavement([asphalt, tl.Layer(tl.Elastic(80e6, 0.4), name="soil")])
+    >>> drop = tl.roads.Basins([[587e-6, 453e-6, 306e-6, 148e-6, 92e-6]], [0, 0.3, 0.6, 1.2, 1.8], [49.5e3], 0.15)
+    >>> result = tl.backcalculate(drop, road, stiff_layer=None)
+    >>> tl.plots.fitted_basins(result).axes[0].get_ylabel()
+    'deflection, down (µm)'
     """
     data = fields_of(backcalculation, "basin_status", "basin_misfit")
     if "measured_history" in data:

@@ -37,6 +37,21 @@ def day_temperatures(life: Source, months: Sequence[int] = (1, 4, 7, 10)) -> Fig
 
     life: a Life or its dataset. months: January is 1. Returns the figure. Raises InputError for other months, and
     if variables are missing, as of a life whose climate is not one of weather.
+
+    >>> import math
+    >>> from datetime import datetime
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> air = [6 - 14 * math.cos(2 * math.pi * (hour / 24 - 15) / 365) for hour in range(0, 8760, 3)]  # °C
+    >>> weather = tl.pavement.Weather(datetime(2023, 1, 1), 3.0, air, surface_temperature=air)
+    >>> temperatures = tl.pavement.road_temperatures(road, weather, [0.03, 0.2])
+    >>> climate = tl.damage.Climate.of_road(road, temperatures, parts=1)
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> traffic = tl.damage.Traffic((axle,), passes_per_year=1e7)
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [base], spacing=0.01))
+    >>> [ax.get_title(loc="left") for ax in tl.plots.day_temperatures(life, months=(1, 7)).axes[:2]]
+    ['January', 'July']
     """
     data = fields_of(life, "day_temperature", "month", "hour", "profile_depth")
     chosen = list(months)
@@ -88,6 +103,21 @@ def season_moduli(life: Source) -> Figure:
 
     Those by the mean over the parts of courses that depend on temperature. life: a Life or its dataset. Returns the
     figure. Raises InputError if variables are missing, as of a life whose courses are not divided.
+
+    >>> import math
+    >>> from datetime import datetime
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> air = [6 - 14 * math.cos(2 * math.pi * (hour / 24 - 15) / 365) for hour in range(0, 8760, 3)]  # °C
+    >>> weather = tl.pavement.Weather(datetime(2023, 1, 1), 3.0, air, surface_temperature=air)
+    >>> temperatures = tl.pavement.road_temperatures(road, weather, [0.03, 0.2])
+    >>> climate = tl.damage.Climate.of_road(road, temperatures, parts=1)
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> traffic = tl.damage.Traffic((axle,), passes_per_year=1e7)
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [base], spacing=0.01))
+    >>> [ax.get_xlabel() for ax in tl.plots.season_moduli(life).axes[:2]]
+    ['temperature (°C)', "Young's modulus (MPa)"]
     """
     data = fields_of(life, "sublayer_modulus", "sublayer_temperature", "sublayer_top", "sublayer_bottom")
     top, bottom = 1e3 * data["sublayer_top"].to_numpy(), 1e3 * data["sublayer_bottom"].to_numpy()

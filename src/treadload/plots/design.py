@@ -24,6 +24,16 @@ def design_thicknesses(design: Source, *, ax: Axes | None = None) -> Figure:
     """Years by criterion against thickness, the years that are asked for, and the thickness that lasts them.
 
     design: a ThicknessDesign or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> answer = tl.life.design_thickness(design, "asphalt", years=20, between=(0.03, 0.06))
+    >>> tl.plots.design_thicknesses(answer).axes[0].get_xlabel()
+    'thickness of asphalt (mm)'
     """
     data = fields_of(design, "trial_thickness", "trial_years", "design_thickness", "asked_years")
     figure, ax = figure_and_axes(ax, 7.6, 4.0)

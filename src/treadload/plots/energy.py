@@ -29,6 +29,13 @@ def dissipated_energy(response: Source, *, ax: Axes | None = None) -> Figure:
     response: with dissipated_energy over (depth, y), two depths and two points or more, of a road with viscoelastic
     layers under a moving load. ax: axes to draw into. Returns the figure; hatched where the energy is not known.
     Raises InputError without that variable, and where no layer loses energy.
+
+    >>> mix = tl.materials.Prony(20e9, ((0.6, 0.1), (0.39, 10.0)), 0.35)
+    >>> road = tl.Pavement.half_space(mix)
+    >>> plate, y = tl.UniformDisc(0.15, 7e5), [0.0, 0.1]
+    >>> response = tl.solve_response(plate, road, depths=[0.05, 0.14], x=[0.0], y=y, speed=20.0)
+    >>> tl.plots.dissipated_energy(response).axes[0].get_title(loc="left")
+    'Energy dissipated in one passage'
     """
     data = fields_of(response, "dissipated_energy", "depth", "y").sortby("depth").sortby("y")
     energy = data["dissipated_energy"].transpose("depth", "y").to_numpy()

@@ -31,6 +31,17 @@ def standard_axles(equivalents: Source, *, ax: Axes | None = None) -> Figure:
 
     The crosses are (P / 130 kN)⁵ K where the standard axle has 130 kN, else the fourth power of P over its load.
     equivalents: an Equivalents or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> equivalents = tl.life.life_equivalents(design, life)
+    >>> [label.get_text() for label in tl.plots.standard_axles(equivalents).axes[0].get_yticklabels()]
+    ['cart']
     """
     data = fields_of(equivalents, "standard_axles", "french_axles", "axle_load", "axles")
     load = float(data.attrs["standard_axle_load"])

@@ -189,6 +189,10 @@ def field_look_shares(look: Source, *, ax: Axes | None = None) -> Figure:
     """Share of sections that have cracked so far by class of age, of every event.
 
     look: a FieldLook or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> look = tl.life.field_look("LTPP")
+    >>> tl.plots.field_look_shares(look).axes[0].get_ylabel()
+    'cracked so far (%)'
     """
     data = fields_of(look, "seen_share", "cell_sections", "cell_age")
     figure, ax = figure_and_axes(ax, 6.8, 3.8)
@@ -228,6 +232,16 @@ def field_years_range(years: Source, *, ax: Axes | None = None) -> Figure:
     """Years at 5, 50 and 95 % of roads by the field shift beside those of the mechanics alone, by criterion.
 
     years: a FieldYears or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1.5e6), tl.damage.Climate.constant(15.0)
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> top = tl.damage.Criterion("top", tl.damage.AgedLine(), 0, "top")
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [top], spacing=0.03))
+    >>> years = tl.life.field_years(life, road, tl.damage.field_shifts["LTPP"])
+    >>> tl.plots.field_years_range(years).axes[0].get_xlabel()
+    'years, logarithmic'
     """
     data = fields_of(years, "field_years", "mechanics_years")
     names = [plain(str(name)) for name in data["criterion"].to_numpy()]

@@ -36,6 +36,16 @@ def first_places(life: Source) -> Figure:
 
     life: a Life or its dataset; numbers follow the order in which the criteria fail. Returns the figure. Raises
     InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> [ax.get_title(loc="left") for ax in tl.plots.first_places(life).axes]
+    ['Where', 'How near to its end']
     """
     data = fields_of(life, "worst_y", "design_utilisation", "life_years", "read_depth", "largest_reading")
     order = failing_order(data)

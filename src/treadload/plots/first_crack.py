@@ -43,6 +43,16 @@ def first_crack(life: Source, *, criterion: str | None = None) -> Figure:
 
     life: a Life or its dataset. criterion: one that reads a tensile strain at the surface; left out, and for another,
     the first of these to fail. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "top")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> tl.plots.first_crack(life).axes[0].get_title(loc="left")
+    'First crack: transverse'
     """
     data = fields_of(life, "crack_repetitions", "crack_place", "crack_strain", "cause_share", "damage_share")
     names = _opened(data)

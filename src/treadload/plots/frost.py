@@ -47,6 +47,22 @@ def frost_months(life: Source) -> Figure:
     life: a Life or its dataset; without frost of a weather the moduli alone are drawn, those of stress-dependent
     layers at their nominal stress. Returns the figure. Raises InputError if variables are missing, as of a life whose
     seasons have no factors on the moduli of layers.
+
+    >>> import math
+    >>> from datetime import datetime
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> air = [6 - 14 * math.cos(2 * math.pi * (hour / 24 - 15) / 365) for hour in range(0, 8760, 3)]  # °C
+    >>> weather = tl.pavement.Weather(datetime(2023, 1, 1), 3.0, air, surface_temperature=air)
+    >>> temperatures = tl.pavement.road_temperatures(road, weather, [0.03, 0.2])
+    >>> frost = tl.pavement.frost_year(road, temperatures, tl.pavement.Frost())
+    >>> climate = tl.damage.Climate.of_road(road, temperatures, parts=1).with_frost(frost, range(1, 13))
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> traffic = tl.damage.Traffic((axle,), passes_per_year=1e7)
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [base], spacing=0.01))
+    >>> tl.plots.frost_months(life).axes[0].get_ylabel()
+    'depth (m)'
     """
     data = fields_of(life, "season_modulus", "factored_layer", "season")
     moduli = 1e-6 * data["season_modulus"].transpose("season", "factored_layer").to_numpy()

@@ -27,6 +27,18 @@ def crack_depth(growth: Source, *, ax: Axes | None = None) -> Figure:
     """Depth of the first crack against years, with what scatters and the end of the design life.
 
     growth: a Growth or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> law = tl.damage.ParisLaw(1e-7, 4.0)
+    >>> growth = tl.life.grow_cracks(design, life, tl.damage.CrackGrowth("base", law=law, steps=3, points=20))
+    >>> tl.plots.crack_depth(growth).axes[0].get_ylabel()
+    'height above the bottom (mm)'
     """
     data = fields_of(growth, "reach_years", "risk_years")
     depth, years = 1e3 * data["crack_depth"].to_numpy(), data["reach_years"].to_numpy()
@@ -75,6 +87,18 @@ def crack_intensity(growth: Source) -> Figure:
     """Range of the stress intensity against depth by class of axles, mode by mode.
 
     growth: a Growth or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> law = tl.damage.ParisLaw(1e-7, 4.0)
+    >>> growth = tl.life.grow_cracks(design, life, tl.damage.CrackGrowth("base", law=law, steps=3, points=20))
+    >>> tl.plots.crack_intensity(growth).axes[0].get_xlabel()
+    'range (MPa √m)'
     """
     data = fields_of(growth, "stress_intensity_range")
     depth = 1e3 * data["solved_depth"].to_numpy()

@@ -24,6 +24,13 @@ def indentation(result: Source) -> Figure:
     """Pressure and dent on the line along x through the middle, step by step.
 
     result: with pressure (Pa) and residual_displacement_z (m) over (step, y, x). Returns the figure.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(3e6, kinematic=60e6))
+    >>> steel = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(210e9, 0.3))
+    >>> road, cells = tl.Pavement.half_space(yielding), {"spacing": 0.002, "depth": 0.009, "layers": 3}
+    >>> result = tl.contact.solve_indentation(steel, road, [150.0], **cells)
+    >>> [ax.get_ylabel() for ax in tl.plots.indentation(result).axes]
+    ['pressure (MPa)', 'dent, down (µm)']
     """
     data = fields_of(result, "pressure", "residual_displacement_z", "normal_load", "step", "y", "x")
     line = data.isel(y=data.sizes["y"] // 2)

@@ -70,6 +70,13 @@ def bond_utilisation(verdict: Source, *, contact: Source | None = None) -> Figur
     bond fails where it is 1. An arrow is the shear that the upper layer exerts on the lower, longest at each map's
     own largest.
     Returns the figure. Raises InputError for what is missing.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.06), tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> braking = tl.response.UniformRectangle(0.2, 0.2, 8e5, traction_x=4e5)
+    >>> fields = tl.life.solve_interfaces(braking, road, x=[-0.1, 0.0, 0.1], y=[-0.1, 0.0, 0.1])
+    >>> verdict = tl.damage.assess_bonds(fields, tl.damage.InterfaceStrength(1e6), tl.damage.ShearFatigue(-0.1))
+    >>> tl.plots.bond_utilisation(verdict).axes[0].get_title(loc="left")
+    'Interface 1, below layer 0'
     """
     data = fields_of(verdict, "utilisation", "interface_shear_x", "interface_shear_y")
     assessed = [
@@ -140,6 +147,14 @@ def sliding(fields: Source, *, contact: Source | None = None) -> Figure:
     fields: of `solve_interfaces`, with jump_x, jump_y and interface_shear over (interface, y, x). contact: outlined,
     if given. Arrows show which way the upper layer slides, longest at each map's own largest. Returns the figure.
     Raises InputError for what is missing, and where nothing slides.
+
+    >>> upper = tl.Layer(tl.Elastic(5e9, 0.35), 0.06, bond=tl.pavement.Bond(stiffness=1e9))
+    >>> road = tl.Pavement([upper, tl.Layer(tl.Elastic(100e6, 0.4))])
+    >>> braking = tl.response.UniformRectangle(0.2, 0.2, 8e5, traction_x=4e5)
+    >>> fields = tl.life.solve_interfaces(braking, road, x=[-0.1, 0.0, 0.1], y=[-0.1, 0.0, 0.1])
+    >>> figure = tl.plots.sliding(fields)
+    >>> f"the upper layer slides by up to {figure.axes[0].collections[0].get_array().max():.0f} µm"
+    'the upper layer slides by up to 33 µm'
     """
     data = fields_of(fields, "jump_x", "jump_y", "interface_shear", "interface_pressure")
     along, across = (data[f"jump_{name}"].transpose("interface", "y", "x").to_numpy() for name in "xy")
@@ -203,6 +218,18 @@ def bonded_and_parted(comparison: Source) -> Figure:
     comparison: a BondComparison or its dataset, with life_years over (state, criterion) and parting_years.
     A dashed line marks when the bond fails. Years on a logarithmic scale. Returns the figure. Raises InputError for
     what is missing, and if no life ever ends.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> strength, fatigue = tl.damage.InterfaceStrength(3e6), tl.damage.ShearFatigue(slope=-0.2)
+    >>> bond = tl.damage.Criterion.of_bond("bond", strength, fatigue)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 1, "bottom")
+    >>> asphalt, soil = tl.Elastic(5e9, 0.35), tl.Elastic(60e6, 0.4)
+    >>> road = tl.Pavement([tl.Layer(asphalt, 0.02), tl.Layer(asphalt, 0.03), tl.Layer(soil)])
+    >>> comparison = tl.life.compare_bonds(tl.Design(tire, road, traffic, climate, [bond, base], spacing=0.01))
+    >>> tl.plots.bonded_and_parted(comparison).axes[0].get_xlabel()
+    'life (years)'
     """
     data = fields_of(comparison, "life_years", "parting_years")
     data = data.isel(criterion=data["criterion"].to_numpy() != data.attrs.get("parts"))

@@ -244,6 +244,18 @@ def life_inputs(life: Source, *, ax: Axes | None = None, most: int = 10) -> Figu
 
     life: a Sensitivity or its dataset. most: inputs to draw. Returns the
     figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> sensitivity = tl.life.life_sensitivity(design, life)
+    >>> figure = tl.plots.life_inputs(sensitivity, most=3)
+    >>> f"{max(bar.get_width() for bar in figure.axes[0].patches):.0f} % longer"
+    '40 % longer'
     """
     data = fields_of(life, "elasticity")
     names, values = [str(n) for n in data["input"].to_numpy()], data["elasticity"].to_numpy()

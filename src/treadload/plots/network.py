@@ -39,6 +39,22 @@ def network_stations(network: Source, *, ax: Axes | None = None) -> Figure:
 
     network: a Network or its dataset. Returns the figure. Raises InputError if variables are missing and where no
     section was solved.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> network = tl.sweeps.solve_network(tl.Case.from_dict(case), "network.csv")
+    >>> tl.plots.network_stations(network).axes[0].get_ylabel()
+    'service life and age (years)'
     """
     data = _solved_of(network)
     figure, ax = figure_and_axes(ax, 10.2, 4.4)
@@ -99,6 +115,22 @@ def network_due(network: Source, *, ax: Axes | None = None) -> Figure:
 
     network: a Network or its dataset. Returns the figure. Raises InputError if variables are missing and where no
     section was solved.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> network = tl.sweeps.solve_network(tl.Case.from_dict(case), "network.csv")
+    >>> tl.plots.network_due(network).axes[0].get_xlabel()
+    'years from now'
     """
     data = _solved_of(network)
     figure, ax = figure_and_axes(ax, 10.2, 3.8)

@@ -40,7 +40,7 @@ def rut_profile(passes: Source, *, ax: Axes | None = None) -> Figure:
 
     >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
     >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
-    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.1, layers=3)
     >>> tl.plots.rut_profile(passes).axes[0].get_ylabel()
     'surface, down (µm)'
     """
@@ -78,6 +78,13 @@ def drum_contact(passes: Source) -> Figure:
 
     passes: of `response.roll_drum`, with pressure over (pass, y, x), Pa, and approach and rut_depth by pass, m.
     Returns the figure.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(3e6, kinematic=60e6))
+    >>> steel = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(210e9, 0.3))
+    >>> road, cells = tl.Pavement.half_space(yielding), {"spacing": (0.003, 0.003), "depth": 0.009, "layers": 3}
+    >>> passes = tl.response.roll_drum(steel, road, 120.0, **cells)
+    >>> [ax.get_ylabel() for ax in tl.plots.drum_contact(passes).axes]
+    ['pressure (MPa)', 'depth (µm)']
     """
     data = fields_of(passes, "pressure", "approach", "rut_depth", "contact_length", "pass", "y", "x")
     numbers, x = data["pass"].to_numpy(), data["x"].to_numpy() * MM
@@ -127,7 +134,7 @@ def plastic_strain(passes: Source, *, ax: Axes | None = None) -> Figure:
 
     >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
     >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
-    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.1, layers=3)
     >>> tl.plots.plastic_strain(passes).axes[0].get_title(loc="left")
     'Plastic strain'
     """
@@ -175,7 +182,7 @@ def residual_stress(
 
     >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
     >>> tire, road = tl.UniformDisc(0.1, 0.9e6), tl.Pavement.half_space(yielding)
-    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.05, layers=4)
+    >>> passes = tl.response.roll_passes(tire, road, passes=2, spacing=0.1, layers=3)
     >>> tl.plots.residual_stress(passes, "xx").axes[0].get_xlabel()
     'residual stress along travel (kPa)'
     """
@@ -205,6 +212,12 @@ def shakedown_map(fields: Source, *, ax: Axes | None = None) -> Figure:
     """Which loads yield nowhere, come to rest, or go on yielding, over the shear that they carry.
 
     fields: of `study.shakedown_map`. Loads are relative to that at first yield without shear. Returns the figure.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(0.4e6, kinematic=60e6))
+    >>> patch, road = tl.UniformRectangle(0.2, 0.2, 0.3e6), tl.Pavement.half_space(yielding)
+    >>> limits = tl.life.shakedown_map(patch, road, [0.0, 0.4], spacing=0.1, layers=3).dataset
+    >>> tl.plots.shakedown_map(limits).axes[0].get_xlabel()
+    'shear over pressure, all of it along travel'
     """
     data = fields_of(fields, "shakedown_load", "elastic_limit_load", "friction")
     friction = data["friction"].to_numpy()

@@ -42,6 +42,20 @@ def reliability_years(reliability: Source, *, ax: Axes | None = None) -> Figure:
     """Probability of failure against years by criterion: draws in full, the first order in dashes.
 
     reliability: a Reliability or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> from treadload.damage.scatter import Scatter
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> scatter = Scatter(fatigue=0.25, thickness={"asphalt": 0.002})
+    >>> road = tl.Pavement([asphalt, soil])
+    >>> design = tl.Design(tire, road, traffic, climate, [base], spacing=0.01, scatter=scatter)
+    >>> life, draws = tl.solve_life(design), tl.life.MonteCarlo(draws=10000)
+    >>> reliability = tl.life.life_reliability(design, life, held_back=0, sampling=draws)
+    >>> tl.plots.reliability_years(reliability).axes[0].get_ylabel()
+    'probability of failure (%)'
     """
     data = fields_of(reliability, "failure_probability", "years_at_risk")
     figure, ax = figure_and_axes(ax, 7.6, 4.2)
@@ -90,6 +104,20 @@ def reliability_inputs(reliability: Source, *, ax: Axes | None = None) -> Figure
     """Bars of what the scatter of each criterion is made of: α² of the first order.
 
     reliability: a Reliability or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> from treadload.damage.scatter import Scatter
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> scatter = Scatter(fatigue=0.25, thickness={"asphalt": 0.002})
+    >>> road = tl.Pavement([asphalt, soil])
+    >>> design = tl.Design(tire, road, traffic, climate, [base], spacing=0.01, scatter=scatter)
+    >>> life, draws = tl.solve_life(design), tl.life.MonteCarlo(draws=10000)
+    >>> reliability = tl.life.life_reliability(design, life, held_back=0, sampling=draws)
+    >>> tl.plots.reliability_inputs(reliability).axes[0].get_xlabel()
+    'share in the scatter, α² of the first order (%)'
     """
     data = fields_of(reliability, "importance")
     shares = data["importance"].to_numpy()

@@ -43,6 +43,17 @@ def remedy_tornado(remedies: Source) -> Figure:
 
     remedies: a Remedies or its dataset. The best and the worst are drawn where there are more than 24. Returns the
     figure. Raises InputError if variables are missing, and where there is no remedy.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> answer = tl.life.remedies(design, life, tl.life.RemedySteps(only=("thickness",)))
+    >>> [label.get_text() for label in tl.plots.remedy_tornado(answer).axes[0].get_yticklabels()]
+    ['2 cm more asphalt']
     """
     data = fields_of(remedies, "remedy_years", "road_years", "life_years")
     if not data.sizes["remedy"]:

@@ -97,6 +97,14 @@ def orientation_shares(
 
     roses: as `crack_rose` gives them. labels: a name each. notes: words right of each bar, such as the largest
     extension. title: left out, a plain one. Returns the figure. Raises InputError as `trace_rose`.
+
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.15), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> plate, x, y = tl.UniformDisc(0.15, 700e3), [-0.3, -0.15, 0.0, 0.15, 0.3], [-0.15, 0.0, 0.15]
+    >>> response = tl.solve_response(plate, road, depths=[0.15], x=x, y=y)
+    >>> rose = tl.damage.crack_rose(tl.damage.envelope(response).isel(depth=0))
+    >>> figure = tl.plots.orientation_shares([rose], ["plate"])
+    >>> f"{max(bar.get_width() for bar in figure.axes[0].patches):.0%} transverse"
+    '100% transverse'
     """
     cases = _cases(roses)
     names = _names(cases, labels)

@@ -27,6 +27,16 @@ def life_rut(life: Source) -> Figure:
     """Rut against years where it is deepest, mm, layers on each other from the surface down; dashed: its limit.
 
     life: a Life with a rut, or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base, ruts = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0), tl.damage.Rutting(limit=0.0127)
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> road = tl.Pavement([asphalt, soil])
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [base], spacing=0.01, rutting=ruts))
+    >>> tl.plots.life_rut(life).axes[0].get_ylabel()
+    'rut, down (mm)'
     """
     data = fields_of(life, "rut_depth", "year")
     names = json.loads(data.attrs["rut_names"])

@@ -53,6 +53,13 @@ def stones_in_mortar(
     nearest there is; left out, where the mastic is pulled most. Stones are outlined. Right: share of the volume with
     a tension above a value, of the mastic and of the mortar alone; share of the stones' faces with a pull above it.
     Returns the figure. Raises InputError for what is missing.
+
+    >>> load = tl.response.GridLoad.from_arrays([[0.8e6] * 4] * 4, spacing=5e-3)
+    >>> stone = tl.materials.Aggregates.from_centres(0.0, 0.0, 5.5e-3, 4e-3, tl.Elastic(60e9, 0.2))
+    >>> cells = {"window": (12e-3, 12e-3), "depth": 12e-3, "spacing": 2e-3}
+    >>> result = tl.response.compute_heterogeneous(load, tl.Elastic(3e9, 0.35), stone, **cells)
+    >>> [ax.get_title(loc="left") for ax in tl.plots.stones_in_mortar(result).axes[:2]]
+    ['Largest tension with stones', 'How stress is spread']
     """
     data = fields_of(
         window, "principal_stress_1", "tension_without_stones", "phase", "stone", "bond_pull", "face_area"

@@ -35,6 +35,14 @@ def tearing(
     Beside the map of shear stands the work of sliding that one passage leaves on each strip along the road, J/m²,
     or the largest shear of the strip, kPa, where the wheel does not roll; beside the map of extension the largest
     of each strip. Grey bands are the ribs. Returns the figure. Raises InputError for what is missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> road = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35))
+    >>> wheel = tl.Rolling(normal_load=100.0, friction=0.7, tractive_force=-35.0)
+    >>> contact = tl.solve_contact(tire, road, wheel, spacing=0.006)
+    >>> response = tl.solve_response(contact, road, depths=[0.0])
+    >>> tl.plots.tearing(contact, response).axes[0].get_title(loc="left")
+    'Shear on the road'
     """
     data = fields_of(contact, "pressure", "traction_x", "traction_y", "state")
     below = strain_plane(response, depth, strain)

@@ -38,6 +38,16 @@ def life_works(life: Source) -> Figure:
     Of one wheel's passage at its worst place; tearing on a logarithmic scale. Below a ten-thousandth of the largest
     is drawn as nothing. life: a Life or its dataset. Returns the figure. Raises InputError if variables are missing,
     and where no wheel shears the surface.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> braking = tl.contact.Maneuver.braking(3.0)  # m/s²
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5, maneuver=braking)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> road = tl.Pavement([tl.Layer(tl.Elastic(5e9, 0.35), 0.03), tl.Layer(tl.Elastic(60e6, 0.4))])
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [base], spacing=0.01))
+    >>> [ax.get_title(loc="left") for ax in tl.plots.life_works(life).axes[:2]]
+    ['Polishing', 'Ravelling']
     """
     data = fields_of(life, "largest_polishing_work", "largest_tearing_work")
     polishing = data["largest_polishing_work"].to_numpy()

@@ -48,6 +48,11 @@ def write_elements(
     shear is that which the tire exerts on the road. A quarter of the force of a cell goes to each of its nodes, which
     is what a uniform stress on a bilinear face gives; the sums over the nodes are the forces of the contact. Returns
     both paths. Raises InputError for unknown units, a contact without pressure or load, and uneven cells.
+
+    >>> patch = tl.response.GridLoad.from_arrays([[400e3, 800e3, 400e3]] * 2, spacing=0.05)
+    >>> mesh, loads = tl.results.write_elements(tl.Footprint(patch), "print.inp")
+    >>> mesh.name, loads.name
+    ('print.inp', 'print_loads.inp')
     """
     path = Path(path)
     check_suffix(path, ELEMENTS, "loads of finite elements")

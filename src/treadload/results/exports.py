@@ -93,6 +93,11 @@ def write_parquet(results: Any, path: str | os.PathLike[str]) -> tuple[Path, ...
 
     Returns the files written, the main one first: all of them, or none. Raises InputError, also where pyarrow is not
     installed.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0])
+    >>> tl.results.write_parquet(response, "plate.parquet")[0].name
+    'plate.parquet'
     """
     check_suffix(path, PARQUET, "tables")
     arrow, parquet = _pyarrow(path)
@@ -136,6 +141,11 @@ def write_excel(results: Any, path: str | os.PathLike[str]) -> Path:
 
     Returns the path; the file appears whole or not at all. Raises InputError, also where openpyxl is not installed
     and for a table of more rows than a sheet holds.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> response = tl.solve_response(tl.UniformDisc(0.15, 700e3), road, depths=[0.15], x=[0.0, 0.1], y=[0.0])
+    >>> tl.results.write_excel(response, "plate.xlsx").name
+    'plate.xlsx'
     """
     path = Path(path)
     check_suffix(path, EXCEL, "a workbook")

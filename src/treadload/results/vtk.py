@@ -48,6 +48,12 @@ def write_vtk(result: Source, path: str | os.PathLike[str]) -> Path:
     vectors.
     Names are those of the datasets, values SI, NaN where nothing is known. Returns the path.
     Raises InputError for a result at a list of points, one without x and y, and a suffix of the other kind.
+
+    >>> road = tl.Pavement.half_space(tl.Elastic(100e6, 0.35))
+    >>> plate = tl.UniformDisc(0.15, 700e3)
+    >>> response = tl.solve_response(plate, road, depths=[0.1, 0.2], x=[0.0, 0.1], y=[0.0, 0.1])
+    >>> tl.results.write_vtk(response, "plate.vtr").name
+    'plate.vtr'
     """
     suffix = check_suffix(path, VTK, "VTK")
     data = dataset_of(result)

@@ -64,8 +64,8 @@ def backcalculate(
     >>> asphalt = tl.Layer(tl.Elastic(5e9, 0.35), 0.15, name="asphalt")
     >>> road = tl.Pavement([asphalt, tl.Layer(tl.Elastic(80e6, 0.4), name="soil")])
     >>> drop = tl.roads.Basins([[587e-6, 453e-6, 306e-6, 148e-6, 92e-6]], [0, 0.3, 0.6, 1.2, 1.8], [49.5e3], 0.15)
-    >>> moduli = tl.backcalculate(drop, road, stiff_layer=None).dataset.fitted_modulus
-    >>> f"soil: {moduli.sel(layer_name='soil').item() / 1e6:.0f} MPa"
+    >>> result = tl.backcalculate(drop, road, stiff_layer=None)
+    >>> f"soil: {result.dataset.fitted_modulus.sel(layer_name='soil').item() / 1e6:.0f} MPa"
     'soil: 80 MPa'
     """
     began = time.perf_counter()

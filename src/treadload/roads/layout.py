@@ -45,6 +45,15 @@ class BasinLayout:
     left out, all that are named "thickness" and the layer, "thickness base [mm]". units: column → unit, for columns
     that name none in brackets or at their end, "load [kN]" or "load_kN". decimal: "." or ",", where the table alone
     does not show it.
+
+    >>> from pathlib import Path
+    >>> _ = Path("drops.csv").write_text('''force,centre,near,far
+    ... 50,400,300,120''')
+    >>> sensors, units = ("centre", "near", "far"), {"force": "kN", "centre": "um", "near": "um", "far": "um"}
+    >>> layout = tl.roads.BasinLayout(sensors, (0.0, 0.3, 0.9), "force", units=units)
+    >>> basins = tl.roads.read_basins("drops.csv", layout)
+    >>> [f"{deflection * 1e6:.0f} µm" for deflection in basins.deflection[0]]
+    ['400 µm', '300 µm', '120 µm']
     """
 
     deflections: tuple[str, ...] = ()

@@ -32,6 +32,14 @@ class MovingLayout:
     load_of_all: that load, where the table has no column. speed: column. side: of the sensors' line to the right of
     the wheels' middle. upwards: True where readings are positive where the surface rises. station, section, position,
     temperature, thickness, units, decimal: as in `BasinLayout`.
+
+    >>> from pathlib import Path
+    >>> _ = Path("slopes.csv").write_text('''load [kN],speed [km/h],S100 [um/m],S300 [um/m]
+    ... 50,80,400,300''')
+    >>> layout = tl.roads.MovingLayout(wheel_spacing=0.35, wheel_width=0.22, wheel_length=0.2)
+    >>> basins = tl.roads.read_basins("slopes.csv", layout)
+    >>> [f"{slope * 1e6:.0f} µm/m" for slope in basins.slope[0]]
+    ['400 µm/m', '300 µm/m']
     """
 
     wheel_spacing: Length

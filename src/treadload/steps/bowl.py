@@ -18,7 +18,13 @@ _BEHIND, _AHEAD, _STEP = 2.5, 1.5, 0.01
 
 
 class BowlStep(Step, name="bowl"):
-    """Deflection of the surface of layers along travel, under the first wheel."""
+    """Deflection of the surface of layers along travel, under the first wheel.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> next(step.name for step in case.steps if isinstance(step, tl.steps.BowlStep))
+    'bowl'
+    """
 
     after: ClassVar = ("contact", "response")
     has_table: ClassVar = False

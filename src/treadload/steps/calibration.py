@@ -47,6 +47,11 @@ class CalibrationStep(Source, name="calibration"):
     under a load and a pressure: areas, length, width, rib_shares with ribs, a footprint, pins, stiffnesses, forces
     at a creepage. errors: standard deviations by reading, { deflection = "0.3 mm", net_area = "2 %" }, for rows
     without their own. friction: of rolling readings.
+
+    >>> tire = {"profile": "315/80R22.5", "belt": "315/80R22.5", "inflation_pressure": "8 bar"}
+    >>> sought = {"parameters": ["foundation"], "load_deflection": [["10 kN", "14.1 mm", "8 bar"]]}
+    >>> [step.name for step in tl.Case.from_dict({"tire": tire, "calibration": sought}).steps]
+    ['calibration']
     """
 
     uses: ClassVar = ("title", "spacing", "tolerance", "tire", "pavement")

@@ -30,6 +30,14 @@ class Result(Study):
     case: that was run. road: at its temperature; of a service life, waiting for it; None for the track of a test rig.
     parts: results by their names in a tree, each an attribute, too: `result.contact`, `result.response`,
     `result.life`, ...; None for a step that the case does not ask for.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> result = tl.run(case, leave_out=("response", "slices"))
+    >>> f"{result.contact.area * 1e4:.0f} cm²", result.life
+    ('10 cm²', None)
     """
 
     case: Case

@@ -62,6 +62,18 @@ def design_case(
     if left out. risk: of failing, in (0, 1); with `[reliability]` in the case the years at that risk are those of its
     scatter. between, step: m, see `design_thickness`. workers, progress: as in `treadload.run`. Raises InputError,
     and ConvergenceError of a contact.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> answer = tl.steps.design_case(tl.Case.from_dict(case), "asphalt", years=10, between=(0.05, 0.1))
+    >>> f"{answer.dataset.design_thickness.item() * 1e3:.0f} mm of asphalt last 20 years"
+    '50 mm of asphalt last 20 years'
     """
     design, number = design_of(case), layer
     if isinstance(layer, int):

@@ -35,6 +35,16 @@ class FootprintStep(Source, name="footprint"):
     Of a sensor's export: frame: "peak", "mean" or a number; travel: "right", "left", "up" or "down" on its page;
     seen_from: "above" or "below"; calibration: pressure of a raw count; load: known, that all is scaled to;
     saturation: what a sensel reads at most; dead: sensels, "leave" or "fill".
+
+    >>> from pathlib import Path
+    >>> _ = Path("print.csv").write_text("0;400000;0")
+    >>> case = tl.Case.from_text('''
+    ... footprint = { file = "print.csv", spacing = "30 mm", units = { pressure = "Pa" } }
+    ... pavement = { layers = [{ material = { kind = "elastic", modulus = "5 GPa", poisson = 0.35 } }] }
+    ... response = { depths = ["20 mm"] }
+    ... ''')
+    >>> case.steps[0].name
+    'footprint'
     """
 
     makes: ClassVar = ("contact",)

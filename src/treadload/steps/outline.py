@@ -32,6 +32,13 @@ class Outline:
 
     lines: of the plan. warnings: sentences. contacts: how many are solved, 1 the case's own. mapped, sliced: points
     of maps and slices. estimate: of the time, in words, where it does not follow from these.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> outline = tl.steps.Outline(case)
+    >>> outline.add("contact", "15 x 15 cells")
+    >>> outline.lines
+    ['contact   15 x 15 cells']
     """
 
     def __init__(self, case: Case) -> None:

@@ -22,7 +22,12 @@ from treadload.steps.loaded import Loaded, Touch, contact_of, load_case
 
 @dataclass(frozen=True)
 class Progress:
-    """How far a computation is. stage: called with a line of text. count: with how many of how many, and of what."""
+    """How far a computation is. stage: called with a line of text. count: with how many of how many, and of what.
+
+    >>> progress = tl.steps.Progress(stage=print)
+    >>> progress.stage("contact")
+    contact
+    """
 
     stage: Callable[[str], None] = lambda text: None
     count: Callable[[int, int, str], None] = lambda done, total, what: None
@@ -125,6 +130,14 @@ def stream(scene: Scene) -> Iterator[tuple[str, BaseResult]]:
     """Name and result of every step of a case, in order of dependence, each as soon as it is solved.
 
     Raises the errors of reading and of the solvers.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> scene = tl.steps.Scene(case, options=tl.steps.Options(leave_out=("response", "slices")))
+    >>> [f"{name}: {result.area * 1e4:.0f} cm²" for name, result in tl.steps.stream(scene)]
+    ['contact: 10 cm²']
     """
     for step in scene.steps:
         if step.name not in scene._solved:

@@ -33,7 +33,14 @@ class NoCallError(Exception):
 
 
 class Script:
-    """The Python of a case. case: that it solves. The steps add their lines to it."""
+    """The Python of a case. case: that it solves. The steps add their lines to it.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> lines = tl.steps.Script(case).lines()
+    >>> next(line for line in lines if line.startswith("wheel"))
+    'wheel = tl.Rolling(normal_load=32500.0, friction=0.7)'
+    """
 
     def __init__(self, case: Case) -> None:
         self.case = case

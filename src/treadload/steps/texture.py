@@ -45,6 +45,13 @@ class TextureStep(Step, name="texture"):
     spectrum has. size: of a patch made of a spectrum, not a file. hurst: exponent of the spectrum. roll_off:
     wave beyond which the spectrum is flat; left out, size. rms_height: of the patch. rms_slope: of the patch, in
     place of rms_height. seed: of the phases. See `treadload.pavement.texture.self_affine`.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> patch = {"size": "16 mm", "spacing": "0.5 mm", "hurst": 0.8, "shortest": "2 mm", "rms_height": "0.2 mm"}
+    >>> patch["rubber"] = {"kind": "elastic", "modulus": "6 MPa", "poisson": 0.5}
+    >>> tl.Case.from_dict(case.as_tables() | {"texture": patch}).steps[-1].name
+    'texture'
     """
 
     shapes_contact: ClassVar = True
@@ -167,7 +174,15 @@ class TextureStep(Step, name="texture"):
 
 
 class EnvelopingStep(Step, name="enveloping"):
-    """The contact that loads the layers, with its pressure on peaks spread; asked for by `[texture]`."""
+    """The contact that loads the layers, with its pressure on peaks spread; asked for by `[texture]`.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> case = tl.Case.from_dict(wheel | {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}})
+    >>> patch = {"size": "16 mm", "spacing": "0.5 mm", "hurst": 0.8, "shortest": "2 mm", "rms_height": "0.2 mm"}
+    >>> resolved = tl.Case.from_dict(case.as_tables() | {"texture": patch | {"resolved": True, "enveloping": "5 mm"}})
+    >>> [step.name for step in resolved.steps]
+    ['contact', 'response', 'slices', 'bowl', 'texture', 'enveloping']
+    """
 
     makes: ClassVar = ("enveloped",)
     has_table: ClassVar = False

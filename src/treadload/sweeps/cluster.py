@@ -59,7 +59,14 @@ class Client(Protocol):
 
 
 class SchedulerLost(TreadloadError, RuntimeError):
-    """The scheduler of a study went away; what was solved is kept."""
+    """The scheduler of a study went away; what was solved is kept.
+
+    >>> try:
+    ...     raise tl.sweeps.SchedulerLost("the scheduler at tcp://host:8786 does not answer")
+    ... except RuntimeError as error:
+    ...     print(error)
+    the scheduler at tcp://host:8786 does not answer
+    """
 
 
 def cluster(question: Question, tasks: Sequence[Task], scheduler: object, jobs: int, name: str) -> Iterator[Record]:

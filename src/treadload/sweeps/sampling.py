@@ -47,7 +47,17 @@ def sampled(
 
 
 def over_points(case: Case, names: Sequence[str], points: np.ndarray) -> Design:
-    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError."""
+    """Cases at points (n, len(names)) in SI units, over the dimension "case". Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> import numpy as np
+    >>> design = tl.sweeps.over_points(case, ["normal_load", "friction"], np.array([[50.0, 0.5], [100.0, 0.7]]))
+    >>> f"{design.count} cases", design.at(1)
+    ('2 cases', {'rolling.normal_load': 100.0, 'rolling.friction': 0.7})
+    """
     columns = {name: ((CASE,), objects(points[:, k].tolist())) for k, name in enumerate(names)}
     return checked_design(case, columns)
 

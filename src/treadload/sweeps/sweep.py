@@ -52,6 +52,14 @@ class Sweep(BaseResult, group="sweep"):
     dataset: results over the dimensions of the design, its inputs as coordinates; NaN where a case failed or was not
     solved; `status` states which, `seconds` how long each took. Of a store, arrays are read when they are used.
     case: the base case. path: of the store, "" in memory.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"]})
+    >>> [f"{pressure / 1e3:.0f} kPa" for pressure in study.dataset.largest_pressure.values]  # at 50 and 100 N
+    ['116 kPa', '148 kPa']
     """
 
     title: ClassVar[str] = "Study"
@@ -224,7 +232,17 @@ def sweep(
 
 
 def open_sweep(path: str | os.PathLike[str]) -> Sweep:
-    """The study in a store, whether it has ended, is being solved or was killed. Raises InputError."""
+    """The study in a store, whether it has ended, is being solved or was killed. Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> _ = tl.sweep(case, {"normal_load": ["50 N", "100 N"]}, store="loads.zarr")
+    >>> study = tl.sweeps.open_sweep("loads.zarr")
+    >>> [f"{pressure / 1e3:.0f} kPa" for pressure in study.dataset.largest_pressure.values]
+    ['116 kPa', '148 kPa']
+    """
     return Sweep(*opened(path))
 
 

@@ -15,6 +15,14 @@ def table_of(study: Sweep, *, fields: bool = False) -> xr.Dataset:
     """The dataset of a study for a table: `status` in words, `failure` with the reason, one row for each case.
 
     fields: with its fields too, a row for each of their places.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"]})
+    >>> tl.sweeps.table_of(study).status.values.tolist()
+    ['solved', 'solved']
     """
     data = study.dataset
     status = data["status"]

@@ -107,6 +107,18 @@ def from_file(
     and go through to the results, as `IDS` do without being listed; so does the number of the row. absent_layers:
     True where a layer all of whose cells are empty is absent in the row, as it is with a thickness of 0. A row that
     cannot be read fails alone. Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> from pathlib import Path
+    >>> _ = Path("loads.csv").write_text('''normal_load [N],friction
+    ... 50,0.5
+    ... 100,0.7''')
+    >>> design = tl.sweeps.from_file(case, "loads.csv")
+    >>> f"{design.count} cases", design.at(1)
+    ('2 cases', {'rolling.normal_load': 100.0, 'rolling.friction': 0.7})
     """
     path = Path(path)
     head, rows = _read(path)

@@ -259,7 +259,14 @@ def belt_caveat(belt: Belt, inflation_pressure: float, diameter: float | None) -
 
 
 def read_belts(path: str | Path) -> list[Belt]:
-    """The belt of a TOML file, in a list: the keys are the arguments of Belt. Raises InputError with file and key."""
+    """The belt of a TOML file, in a list: the keys are the arguments of Belt. Raises InputError with file and key.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> (belt,) = tl.catalogue.read_belts(folder / "belts" / "315_80R22.5.toml")
+    >>> belt.name
+    '315/80R22.5'
+    """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 

@@ -53,6 +53,12 @@ def read_tires(path: str | os.PathLike[str]) -> list[CataloguedTire]:
 
     A mesh has the keys name, mesh (its file, from the folder of the TOML file), title, source, caveats and ribs; a
     parametric tread those of TreadProfile.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> (tire,) = tl.catalogue.read_tires(folder / "tires" / "385_65R22.5.toml")
+    >>> f"{tire.name}: {tire.width * 1e3:.0f} mm wide with {len(tire.grooves)} grooves"
+    '385/65R22.5: 300 mm wide with 4 grooves'
     """
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read

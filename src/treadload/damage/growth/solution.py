@@ -38,6 +38,18 @@ class Growth(BaseResult, group="growth"):
     adds, thermal_growth_rate (solved_depth), m per year, which growth_rate contains as shared between the passes of
     the year in which the crack starts.
     asked: how it grows. stats: solves, seconds. warnings: sentences for the user.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> law = tl.damage.ParisLaw(1e-7, 4.0)
+    >>> growth = tl.life.grow_cracks(design, life, tl.damage.CrackGrowth("base", law=law, steps=3, points=20))
+    >>> [f"{years:.1f} years" for years in growth.dataset.reach_years.values[[0, -1]]]  # starts, is through
+    ['1.2 years', '79.1 years']
     """
 
     title: ClassVar[str] = "Crack growth"

@@ -23,6 +23,12 @@ class Predictions:
     no damage is done. parts: further numbers of each section by name (n,), such as the share of thermal stress.
     variants: ages at the surface by what the mechanics leave open, such as the hardening of the line, and its values.
     about: sentences on how they were predicted.
+
+    >>> from pathlib import Path
+    >>> folder = Path(tl.catalogue.__file__).parent / "data"
+    >>> predictions = tl.life.read_predictions(folder / "field_tables" / "ltpp_predicted.csv")
+    >>> f"{len(predictions.sections)} sections"
+    '149 sections'
     """
 
     sections: tuple[str, ...]

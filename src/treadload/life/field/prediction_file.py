@@ -21,7 +21,15 @@ _DIGITS = 6
 
 
 def write_predictions(predictions: Predictions, path: str | os.PathLike[str]) -> Path:
-    """Write predicted ages as a table of text that `read_predictions` takes. Returns the path. Raises WriteError."""
+    """Write predicted ages as a table of text that `read_predictions` takes. Returns the path. Raises WriteError.
+
+    >>> import numpy as np
+    >>> predictions = tl.life.Predictions(("A", "B"), np.array([8.0, 12.0]), np.array([30.0, 25.0]))
+    >>> print(tl.life.write_predictions(predictions, "ages.csv").read_text(encoding="utf-8"))
+    section;surface;bottom
+    A;8;30
+    B;12;25
+    """
     columns: dict[str, Array] = {"surface": predictions.surface, "bottom": predictions.bottom}
     for what, by_value in predictions.variants.items():
         columns |= {f"{what} = {value:g}": ages for value, ages in by_value.items()}
@@ -33,7 +41,14 @@ def write_predictions(predictions: Predictions, path: str | os.PathLike[str]) ->
 
 
 def read_predictions(path: str | os.PathLike[str]) -> Predictions:
-    """Predicted ages, years, from a file of `write_predictions`. Raises InputError that names file and line."""
+    """Predicted ages, years, from a file of `write_predictions`. Raises InputError that names file and line.
+
+    >>> import numpy as np
+    >>> predictions = tl.life.Predictions(("A", "B"), np.array([8.0, 12.0]), np.array([30.0, 25.0]))
+    >>> path = tl.life.write_predictions(predictions, "ages.csv")
+    >>> [f"{age:.0f} years" for age in tl.life.read_predictions(path).surface]
+    ['8 years', '12 years']
+    """
     file = Path(path)
     numbered = list(enumerate(text_of(file, "predicted ages").splitlines(), start=1))
     about = tuple(line[1:].strip() for _, line in numbered if line.startswith("#"))

@@ -77,6 +77,10 @@ class Priors:
     wheels) stands for. missing_traffic: standard axles a year by the least thickness of the asphalt, m. deviation: of
     the wander, m. age: at which the asphalt is read, years. parts_of_day, daily_range: K, of the weather.
     thermal: whether daily thermal stress counts. spacing: of the contact's cells, m.
+
+    >>> priors = tl.life.Priors()
+    >>> f"{priors.mix} under {priors.steering_load / 1e3:.0f} kN on the steering axle"
+    'EB-BBSG3 under 53 kN on the steering axle'
     """
 
     mix: str = "EB-BBSG3"

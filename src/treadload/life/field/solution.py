@@ -47,6 +47,11 @@ class FieldLook(BaseResult, group="field_look"):
     """Shares of a table's sections that have cracked so far, by class of age, without any fit.
 
     dataset: cell_sections, seen_share (event, cell). warnings: sentences about what the table does not have.
+
+    >>> look = tl.life.field_look("LTPP")
+    >>> shares = look.dataset.seen_share.sel(event="wheel-path").values
+    >>> f"from {shares.min():.0%} to {shares.max():.0%} of the sections have cracks, by class of age"
+    'from 0% to 100% of the sections have cracks, by class of age'
     """
 
     title: ClassVar[str] = "Road sections"

@@ -32,6 +32,16 @@ class FieldYears(BaseResult, group="field_shift"):
     which that share of roads shows the first crack; NaN outside the shift's range. shift: by its name, with its
     data, error and range. outside: why the road lies outside its range; empty within. warnings: sentences for the
     user.
+
+    >>> tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1.5e6), tl.damage.Climate.constant(15.0)
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> top = tl.damage.Criterion("top", tl.damage.AgedLine(), 0, "top")
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [top], spacing=0.03))
+    >>> years = tl.life.field_years(life, road, tl.damage.field_shifts["LTPP"])
+    >>> years.outside or "within the range of the shift"
+    'within the range of the shift'
     """
 
     title: ClassVar[str] = "What roads show"
@@ -85,6 +95,16 @@ def field_years(life: Life, road: Pavement, shift: FieldShift) -> FieldYears:
     scatter of roads. Outside the range of the shift (asphalt, mean temperature of the surface, standard axles of the
     first year) the mechanics stand alone. Raises InputError for a life without
     such a criterion.
+
+    >>> tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("axle", 1.0, wheel_load=32.5e3, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1.5e6), tl.damage.Climate.constant(15.0)
+    >>> road = tl.Pavement.from_catalogue("6 BBSG3 / 15 GB3 / PF3")
+    >>> top = tl.damage.Criterion("top", tl.damage.AgedLine(), 0, "top")
+    >>> life = tl.solve_life(tl.Design(tire, road, traffic, climate, [top], spacing=0.03))
+    >>> years = tl.life.field_years(life, road, tl.damage.field_shifts["LTPP"])
+    >>> [f"{limit:.1f}" for limit in years.dataset.field_years.sel(criterion="top").values]  # 5, 50, 95 % of roads
+    ['31.1', '106.5', '364.4']
     """
     names = list(json.loads(life.dataset.attrs.get("surface_lines", "{}")))
     if not names:

@@ -34,6 +34,21 @@ class Reliability(BaseResult, group="reliability"):
     criterion to fail; thickness_slope, surface_error, coverage (criterion). scatter: what was asked. stats: what was
     solved and drawn.
     warnings: sentences for the user.
+
+    >>> from treadload.damage.scatter import Scatter
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> scatter = Scatter(fatigue=0.25, thickness={"asphalt": 0.002})
+    >>> road = tl.Pavement([asphalt, soil])
+    >>> design = tl.Design(tire, road, traffic, climate, [base], spacing=0.01, scatter=scatter)
+    >>> life, draws = tl.solve_life(design), tl.life.MonteCarlo(draws=10000)
+    >>> reliability = tl.life.life_reliability(design, life, held_back=0, sampling=draws)
+    >>> shares = reliability.dataset.importance.sel(criterion="base")
+    >>> f"{shares.sum().item():.0%}: fatigue, thickness and the surface"
+    '100%: fatigue, thickness and the surface'
     """
 
     title: ClassVar[str] = "Reliability of the service life"

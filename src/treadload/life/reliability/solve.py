@@ -63,6 +63,20 @@ def life_reliability(
     them, and what the number of draws leaves open, is the error of the years. A law that has k_r in it
     (`risk_factor`) is taken at its median, so that its risk does not count twice.
     Raises InputError for risks that are 0 or 1, and for a life that never ends; ConvergenceError of a contact.
+
+    >>> from treadload.damage.scatter import Scatter
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> scatter = Scatter(fatigue=0.25, thickness={"asphalt": 0.002})
+    >>> road = tl.Pavement([asphalt, soil])
+    >>> design = tl.Design(tire, road, traffic, climate, [base], spacing=0.01, scatter=scatter)
+    >>> life, draws = tl.solve_life(design), tl.life.MonteCarlo(draws=10000)
+    >>> reliability = tl.life.life_reliability(design, life, held_back=0, sampling=draws)
+    >>> [f"{years:.1f}" for years in reliability.dataset.road_years_at_risk.values]  # at 5, 50 and 95 %
+    ['0.4', '1.2', '4.0']
     """
     start = time.perf_counter()
     risk_levels = check_risks(risks)

@@ -76,6 +76,17 @@ def remedies(
     as it is, is summed again from the values of the life. Nothing is linearised. A change that the design does not
     allow, or that ends in an error, is in `skipped` with the reason. A remedy under which what does most damage
     leaves the range of its law has a warning. Raises InputError for a life that never ends or is not of the design.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
+    >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
+    >>> traffic, climate = tl.damage.Traffic((axle,), passes_per_year=1e7), tl.damage.Climate.constant(15.0)
+    >>> base = tl.damage.Criterion("base", tl.FatigueLine(120e-6, -0.2), 0, "bottom")
+    >>> asphalt, soil = tl.Layer(tl.Elastic(5e9, 0.35), 0.03, "asphalt"), tl.Layer(tl.Elastic(60e6, 0.4), name="soil")
+    >>> design = tl.Design(tire, tl.Pavement([asphalt, soil]), traffic, climate, [base], spacing=0.01)
+    >>> life = tl.solve_life(design)
+    >>> answer = tl.life.remedies(design, life, tl.life.RemedySteps(only=("thickness",)))
+    >>> [str(remedy) for remedy in answer.dataset.remedy.values]
+    ['2 cm more asphalt']
     """
     start = time.perf_counter()
     steps = RemedySteps() if steps is None else steps

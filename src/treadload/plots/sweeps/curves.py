@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 import xarray as xr
 from matplotlib.axes import Axes
-from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter
@@ -25,13 +24,12 @@ from treadload.plots.kit.style import (
     MUTED,
     headline,
     legend_below,
-    measure,
     open_axes,
-    power_of_ten,
     sequential,
     styled,
 )
 from treadload.plots.sweeps.reading import View, main_readings
+from treadload.plots.sweeps.scales import is_logarithmic, logarithmic_tick, solid
 from treadload.plots.sweeps.titles import LETTERS, capital, under
 
 # Lines of one figure, and of how many a legend tells each.
@@ -89,6 +87,15 @@ def study_curve(
     another input, or a dimension of the result such as depth; left out, the next input; "" for none. at: name → value
     of what is varied besides, SI, the nearest of which is drawn; left out, the middle one. ax: axes to draw into.
     Cases that failed leave gaps, a cross at the foot, and are counted. Returns the figure. Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"]})
+    >>> line = tl.plots.study_curve(study, "largest_pressure").axes[0].lines[0]
+    >>> [f"{pressure:.0f} kPa" for pressure in line.get_ydata()]
+    ['116 kPa', '148 kPa']
     """
     view = View.of(study)
     figure, ax = figure_and_axes(ax, 6.4, 4.1)
@@ -114,6 +121,15 @@ def study_curves(
 
     of: names of results, six at most; left out, the first of those that differ between the cases. Returns the figure.
     Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"]})
+    >>> figure = tl.plots.study_curves(study, ["largest_pressure", "net_area"])
+    >>> [ax.get_ylabel() for ax in figure.axes[:2]]
+    ['peak pressure (kPa)', 'net contact area (mm²)']
     """
     view = View.of(study)
     names = list(of) or list(view.readings()[:_PANELS])
@@ -153,6 +169,14 @@ def study_slip_curve(
 
     study: a Sweep or its dataset that varies a creepage or a force. by, at: as in `study_curve`. Returns the figure.
     Raises InputError where neither was varied.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"creepage_x": [0.0, 0.01]})
+    >>> tl.plots.study_slip_curve(study).axes[0].get_ylabel()
+    'Q/μP: shear force over friction × load (–)'
     """
     view = View.of(study)
     along, varied = slip_input(view)
@@ -357,24 +381,6 @@ def _axis(axis: xr.DataArray) -> tuple[np.ndarray, list[str]]:
     names = [str(text) for text in axis.to_numpy()]
     distinct = list(dict.fromkeys(names))
     return np.array([distinct.index(name) for name in names], dtype=float), distinct
-
-
-def is_logarithmic(x: np.ndarray) -> bool:
-    """True of values that were chosen evenly in their logarithms, over more than a decade."""
-    if len(x) < 3 or not (x > 0).all() or x.max() < 10 * x.min():
-        return False
-    steps = np.diff(np.log(np.sort(x)))
-    return bool(np.ptp(steps) < 0.2 * steps.mean())
-
-
-def logarithmic_tick(value: float, _: object = None) -> str:
-    """A number of a logarithmic axis: 0.5, 20, 5×10⁷."""
-    return measure(value) if 1e-2 < value < 1e4 else power_of_ten(value).replace(".0×", "×").removeprefix("1×")
-
-
-def solid(name: str) -> ListedColormap:
-    """A sequential map of which no value is as light as paper, which means that there is none."""
-    return ListedColormap(sequential(name)(np.linspace(0.12, 1.0, 256)))
 
 
 def _cross(ax: Axes, x: np.ndarray, colour: object, number: int = 0) -> None:

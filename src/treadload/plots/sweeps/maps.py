@@ -21,8 +21,8 @@ from treadload.plots.kit.figure import figure_and_axes, new_figure
 from treadload.plots.kit.plan import edges, limits
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import INK, MUTED, RULE, figure_of, halo, headline, ink_on, measure, sequential, styled
-from treadload.plots.sweeps.curves import is_logarithmic, logarithmic_tick, solid
 from treadload.plots.sweeps.reading import PLANE, View, main_readings, place_in_words
+from treadload.plots.sweeps.scales import is_logarithmic, logarithmic_tick, solid
 from treadload.plots.sweeps.titles import capital, under
 
 # Maps of small multiples, across and down.
@@ -69,6 +69,14 @@ def study_map(
     study: a Sweep or its dataset. of: name of the result. x, y: of inputs that are numbers; left out, those of most
     values. at: name → value of what is varied besides, SI; left out, the middle. Passes and years have a logarithmic
     scale; cases that failed are crossed out. Returns the figure. Raises InputError.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"], "friction": [0.5, 0.7]})
+    >>> tl.plots.study_map(study, "largest_pressure").axes[0].get_xlabel()
+    'normal load (kN)'
     """
     view = View.of(study)
     field = view.reading(of)
@@ -159,6 +167,15 @@ def study_multiples(
     study: a Sweep or its dataset with a field over y and x. of: its name. across, down: inputs; left out, those of
     most values. at: name → value of depths and of what is varied besides, SI. Of more than 5 x 4 cases evenly some
     are shown. Returns the figure. Raises InputError for what is no field.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> study = tl.sweep(case, {"normal_load": ["50 N", "100 N"]}, fields=["pressure"])
+    >>> figure = tl.plots.study_multiples(study, "pressure")
+    >>> [f"{ax.collections[0].get_array().max():.0f} kPa" for ax in figure.axes[:2]]
+    ['116 kPa', '148 kPa']
     """
     view = View.of(study)
     field = view.reading(of)

@@ -30,6 +30,14 @@ def tornado_bars(tornado: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of a result from the base case to both ends of every input, the largest swing on top.
 
     tornado: a Tornado or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> tornado = tl.sweeps.tornado(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure")
+    >>> tl.plots.tornado_bars(tornado).axes[0].get_xlabel()
+    'peak pressure (kPa)'
     """
     data = fields_of(tornado, "reading_low", "reading_high", "reading_base", "swing").isel(input=slice(_MOST))
     what = _reading(data)
@@ -82,6 +90,15 @@ def sobol_bars(sobol: Source, *, ax: Axes | None = None) -> Figure:
     """Bars of first-order and total Sobol indices of every input with their 95 % intervals.
 
     sobol: a Sobol or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> ranges = {"normal_load": ("50 N", "100 N"), "friction": (0.5, 0.7)}
+    >>> sobol = tl.sweeps.sobol(case, ranges, of="largest_pressure", blocks=2)
+    >>> tl.plots.sobol_bars(sobol).axes[0].get_xlabel()
+    'share of the variance (–)'
     """
     data = fields_of(sobol, "first_order", "total_order").isel(input=slice(_MOST))
     figure, ax = figure_and_axes(ax, 7.0, 1.6 + 0.55 * data.sizes["input"])
@@ -118,6 +135,14 @@ def morris_effects(morris: Source, *, ax: Axes | None = None) -> Figure:
     """Spread σ of the effects of every input against their mean size μ*, with its 95 % interval.
 
     morris: a Morris or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> morris = tl.sweeps.morris(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure", trajectories=2)
+    >>> tl.plots.morris_effects(morris).axes[0].get_xlabel()
+    'μ*: mean size of the effect (kPa)'
     """
     data = fields_of(morris, "absolute_effect", "effect_deviation", "absolute_effect_interval")
     what = _reading(data)

@@ -29,6 +29,13 @@ class Heterogeneous(BaseResult, group="heterogeneous"):
     stones are softer than the mortar, or voids, `soft_strain_error` is the error of their mean strain by their cells,
     the largest of them, as the attribute error_estimate describes; NaN where it is not estimated.
     stats: seconds, iterations. warnings: sentences for the user. loads, road, stones, bond_strength: the question.
+
+    >>> load = tl.response.GridLoad.from_arrays([[0.8e6] * 4] * 4, spacing=5e-3)
+    >>> stone = tl.materials.Aggregates.from_centres(0.0, 0.0, 5.5e-3, 4e-3, tl.Elastic(60e9, 0.2))
+    >>> cells = {"window": (12e-3, 12e-3), "depth": 12e-3, "spacing": 2e-3}
+    >>> result = tl.response.compute_heterogeneous(load, tl.Elastic(3e9, 0.35), stone, **cells)
+    >>> f"{result.dataset.stone_fraction.item():.1%} of the window is stone"
+    '14.8% of the window is stone'
     """
 
     title: ClassVar[str] = "Aggregate-scale response"

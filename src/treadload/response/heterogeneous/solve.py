@@ -84,6 +84,13 @@ def compute_heterogeneous(
     soft stones and voids by these steps is `soft_strain_error`, a fit to finite elements, see
     `response.heterogeneous.cell_error`.
     Returns a Heterogeneous. Raises InputError for what cannot be, ConvergenceError where the equations stay unsolved.
+
+    >>> load = tl.response.GridLoad.from_arrays([[0.8e6] * 4] * 4, spacing=5e-3)
+    >>> stone = tl.materials.Aggregates.from_centres(0.0, 0.0, 5.5e-3, 4e-3, tl.Elastic(60e9, 0.2))
+    >>> cells = {"window": (12e-3, 12e-3), "depth": 12e-3, "spacing": 2e-3}
+    >>> result = tl.response.compute_heterogeneous(load, tl.Elastic(3e9, 0.35), stone, **cells)
+    >>> f"the stone carries {result.dataset.stone_over_mastic.item():.1f} times the stress of the mortar"
+    'the stone carries 1.6 times the stress of the mortar'
     """
     start = time.perf_counter()
     tell = progress or (lambda text: None)

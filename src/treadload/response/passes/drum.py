@@ -125,6 +125,13 @@ def roll_drum(
     peak_pressure, approach, how deep the drum stands below the surface that was, pressure_centre_x, and
     rolling_resistance, N, the load times that over the radius.
     Raises InputError, and ConvergenceError where a contact is not found.
+
+    >>> yielding = tl.materials.ElastoPlastic(tl.Elastic(600e6, 0.35), tl.materials.VonMises(3e6, kinematic=60e6))
+    >>> steel = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(210e9, 0.3))
+    >>> road, cells = tl.Pavement.half_space(yielding), {"spacing": (0.003, 0.003), "depth": 0.009, "layers": 3}
+    >>> passes = tl.response.roll_drum(steel, road, 120.0, **cells)
+    >>> passes.verdict
+    'shakedown'
     """
     start = time.perf_counter()
     positive("load", load, "N", "a vibrating roller's drum carries near 50e3")

@@ -30,6 +30,22 @@ class Sections:
     design: a case for each, its faults with the reasons. names: of the sections, all different. position: along the
     road, m, NaN where the table has none. age: years since the opening, 0 where the table has none. length: m, NaN
     where the table has none.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> sections = tl.sweeps.read_sections(tl.Case.from_dict(case), "network.csv")
+    >>> sections.design.at(1)
+    {'pavement.layers.0.thickness': 0.03}
     """
 
     design: Design
@@ -55,6 +71,22 @@ def read_sections(case: Case, path: str | os.PathLike[str], *, ids: Sequence[str
     [km]", a place along the road; `position [m]`, that place; `age [years]`, since the opening; `length [m]`. ids: as
     in `sweeps.from_file`. A layer whose thickness is 0 is absent in its section, and so is one below the
     surface all of whose cells are empty. A row that cannot be read fails alone. Raises InputError.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> sections = tl.sweeps.read_sections(tl.Case.from_dict(case), "network.csv")
+    >>> [f"{name}: {age:.0f} years old" for name, age in zip(sections.names, sections.age, strict=True)]
+    ['A: 8 years old', 'B: 1 years old']
     """
     units = dict(headings(path))
     by_kind = {name.casefold(): name for name in units if name.casefold() in (POSITION, STATION, AGE, LENGTH)}

@@ -35,6 +35,22 @@ class Network(BaseResult, group="network"):
     one; life_years (section, criterion);
     governing_criterion and reason as texts. NaN where a section failed or was not solved. stats: sections, seconds.
     warnings: sentences for the user.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> network = tl.sweeps.solve_network(tl.Case.from_dict(case), "network.csv")
+    >>> [int(rank) for rank in network.dataset.section_rank.values]  # 1 has the least service life left
+    [2, 1]
     """
 
     title: ClassVar[str] = "Remaining life of a network"

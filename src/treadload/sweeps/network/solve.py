@@ -43,6 +43,22 @@ def solve_network(
     The remaining life is the service life from the opening, under the traffic's growth, less the age of the section.
     A section that fails keeps its reason, and the others go on. Contacts of tires are solved once for all sections
     with the same traffic and surface. Raises InputError, and what `sweep` raises.
+
+    >>> axle = {"name": "cart", "share": 1, "axle_load": "1 kN", "inflation_pressure": "8 bar"}
+    >>> profile = {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}
+    >>> mix, earth = ({"kind": "elastic", "modulus": modulus, "poisson": 0.35} for modulus in ("5 GPa", "60 MPa"))
+    >>> top, soil = {"name": "asphalt", "thickness": "3 cm", "material": mix}, {"name": "soil", "material": earth}
+    >>> case = {"tire": {"profile": profile}, "pavement": {"layers": [top, soil]}, "spacing": "1 cm"}
+    >>> case |= {"traffic": {"passes_per_year": 1e7, "classes": [axle]}, "climate": {"temperature": 15}}
+    >>> line = {"law": "fatigue-line", "epsilon_6": "120 microstrain", "slope": -0.2}
+    >>> case["criteria"] = [{"name": "base", "layer": "asphalt", "place": "bottom"} | line]
+    >>> from pathlib import Path
+    >>> _ = Path("network.csv").write_text('''section;age [years];thickness asphalt [mm]
+    ... A;8;40
+    ... B;1;30''')
+    >>> network = tl.sweeps.solve_network(tl.Case.from_dict(case), "network.csv")
+    >>> [f"{years:.1f} years" for years in network.dataset.remaining_years.values]  # of 40 and 30 mm
+    ['2.5 years', '0.3 years']
     """
     check_case(case)
     listed = sections if isinstance(sections, Sections) else read_sections(case, sections, ids=ids)

@@ -41,6 +41,14 @@ class Morris(Screening, group="morris"):
 
     dataset: over `input`: `absolute_effect` (μ*) with the half width of its 95 % interval, `mean_effect` (μ) and
     `effect_deviation` (σ), all in the unit of the result.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> morris = tl.sweeps.morris(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure", trajectories=2)
+    >>> morris.dataset.mean_effect.item() == morris.dataset.absolute_effect.item()  # all effects have one sign
+    True
     """
 
     title: ClassVar[str] = "Morris screening"
@@ -93,6 +101,14 @@ def morris(
     them is an error. Raises InputError.
     Sources: Morris (1991), Technometrics 33; Campolongo, Cariboni and Saltelli (2007), Environ. Model. Softw. 22, of
     μ*; SALib as in `sobol`.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> morris = tl.sweeps.morris(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure", trajectories=2)
+    >>> f"{morris.dataset.absolute_effect.item() / 1e3:.0f} kPa over the range of the load"
+    '32 kPa over the range of the load'
     """
     inputs = Ranges.of(case, ranges)
     points = morris_points(inputs, trajectories, seed=seed)

@@ -67,6 +67,14 @@ def tornado(
     value of a number that is over one, {"depth": 0.21}. solving: store, jobs, in_threads, scheduler, progress, as in
     `sweep`. 2 n + 1 cases for n inputs. It sees no interaction of inputs: `sobol` does. Returns the Tornado. A case
     that failed leaves a gap and a warning. Raises InputError, also where the base case fails.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> tornado = tl.sweeps.tornado(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure")
+    >>> f"{tornado.dataset.swing.item() / 1e3:.0f} kPa from 50 to 100 N"
+    '32 kPa from 50 to 100 N'
     """
     inputs = Ranges.of(case, ranges)
     base = np.array([base_value(case, name, key) for name, key in zip(inputs.names, inputs.keys, strict=True)])
