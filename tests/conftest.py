@@ -13,6 +13,8 @@ def pytest_collection():
         return (yield)
     finally:
         gc.freeze()
+        # And looks at what is young at every 20 000 objects, not at every 700: as many as a few figures.
+        gc.set_threshold(20_000, 20, 20)
         gc.enable()
 
 
@@ -64,10 +66,34 @@ def cache_folder(tmp_path_factory):
         yield
 
 
+@pytest.fixture(scope="module")
+def page_of_dots():
+    """The text of a report whose figures are drawn, and in the page each is one pixel: for fixtures of a module."""
+
+    def write(*arguments, **options):
+        from treadload.reporting import report
+
+        with pytest.MonkeyPatch.context() as patch:
+            as_dots(patch)
+            return report(*arguments, **options).read_text(encoding="utf-8")
+
+    return write
+
+
 @pytest.fixture
 def figures_as_dots(monkeypatch):
     """Figures of a report are drawn, and in the page each is one pixel: for what else the page holds."""
+    as_dots(monkeypatch)
+
+
+def as_dots(patch):
     from PIL import Image
 
     dot = Image.new("RGB", (1, 1))
-    monkeypatch.setattr("treadload.reporting.pictures.raster", lambda figure, **_: dot)
+    patch.setattr("treadload.reporting.pictures.raster", lambda figure, **_: dot)
+
+
+@pytest.fixture
+def without_figures(monkeypatch):
+    """Pages without their figures, which other tests draw: seconds each."""
+    monkeypatch.setattr("treadload.reporting.pictures.picture", lambda *_, **__: [])

@@ -165,24 +165,13 @@ def _tree(path: Path) -> xr.DataTree:
         probe.attrs.get("_nc3_strict")
         _check_links(probe)
 
-    class Remembering(h5py.File):  # type: ignore[misc]
-        """Keeps what it has opened: h5netcdf opens each dataset again for each of its properties, ninety times."""
-
-        def __init__(self) -> None:
-            super().__init__(path, "r")
-            self.opened: dict[object, object] = {}
-
-        def __getitem__(self, name: object) -> object:
-            if not isinstance(name, str):
-                return super().__getitem__(name)
-            if name not in self.opened:
-                self.opened[name] = super().__getitem__(name)
-            return self.opened[name]
-
     # Units are read by who needs them: none of them is a date.
     with warnings.catch_warnings():
         warnings.filterwarnings("error", _TWICE, UserWarning)
-        with Remembering() as file, h5netcdf.File(file, "r", decode_vlen_strings=True, phony_dims="access") as source:
+        with (
+            remembering(path, "r") as file,
+            h5netcdf.File(file, "r", decode_vlen_strings=True, phony_dims="access") as source,
+        ):
             groups = {
                 group.name: xr.open_dataset(H5NetCDFStore(source, group=group.name), decode_times=False).load()
                 for group in _groups_of(source)
@@ -193,6 +182,30 @@ def _tree(path: Path) -> xr.DataTree:
         node.to_dataset()
         _replace_texts(node)
     return loaded
+
+
+def remembering(path: str | os.PathLike[str], mode: str, **options: object) -> h5py.File:
+    """An HDF5 file that keeps what it has opened, for h5netcdf, which opens each dataset again for each property.
+
+    path, mode, options: as of `h5py.File`.
+    """
+    import h5py
+
+    class Remembering(h5py.File):  # type: ignore[misc]
+        def __init__(self) -> None:
+            super().__init__(path, mode, **options)
+            self.opened: dict[object, h5py.HLObject] = {}
+
+        def __getitem__(self, name: object) -> object:
+            if not isinstance(name, str):
+                return super().__getitem__(name)
+            kept = self.opened.get(name)
+            # What is deleted has no links: h5netcdf makes the dataset of a dimension again as that of its coordinate.
+            if kept is None or not h5py.h5o.get_info(kept.id).rc:
+                kept = self.opened[name] = super().__getitem__(name)
+            return kept
+
+    return Remembering()
 
 
 def _groups_of(group: h5netcdf.Group) -> Iterator[h5netcdf.Group]:

@@ -70,12 +70,12 @@ def test_elements_deep_below_the_surface_are_eshelby(contrast):
 @pytest.mark.parametrize(
     ("cover", "contrast", "cells"),
     [
-        *((0.5, contrast, cells) for contrast in (0.0, 0.1) for cells in (4, 6, 8)),
+        *((0.5, contrast, cells) for contrast, cells in ((0.0, 4), (0.0, 6), (0.0, 8), (0.1, 4), (0.1, 6))),
         *(
             pytest.param(cover, contrast, cells, marks=pytest.mark.slow)
             for cover, contrast in REFERENCE
             for cells in (4, 6, 8, 10)
-            if not (cover == 0.5 and contrast < 0.2 and cells < 10)
+            if not (cover == 0.5 and contrast < 0.2 and cells < 10) or (cover, contrast, cells) == (0.5, 0.1, 8)
         ),
     ],
 )

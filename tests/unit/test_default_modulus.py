@@ -60,6 +60,7 @@ def test_a_height_map_is_known_by_its_curvature():
     assert tl.Tire.from_height_map(np.zeros((9, 9)), 4e-3).outer_radius is None
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_summary_and_report_tell_it(tmp_path):
     contact, (warning,) = said(tl.Tire.from_profile(SEDAN, inflation_pressure=230e3), 4e3)
     assert warning[:60] in " ".join(contact.summary().split())

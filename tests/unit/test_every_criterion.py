@@ -218,6 +218,7 @@ def test_the_command_lists_them():
     assert "did you mean 'energy_ratio'" in wrong.output
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_a_life_tells_what_each_class_does_to_the_surface(life, tmp_path):
     """The contact's own largest work of sliding; the tearing of its shear with the modulus of the season."""
     data = life.dataset

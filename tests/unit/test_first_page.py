@@ -101,6 +101,7 @@ def test_all_criteria_stand_side_by_side_in_the_order_in_which_they_fail():
     np.testing.assert_allclose([bar.get_width() for bar in bars], used[failing_order(life.dataset)], rtol=1e-12)
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_a_page_without_a_crack_does_not_speak_of_one(tmp_path):
     """All planes nearer to the horizontal than 45°, or none: no orientation, no "crack" but where it is denied."""
     life = a_life((44.0, 20.0, np.nan, np.nan))

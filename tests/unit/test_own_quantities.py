@@ -201,6 +201,7 @@ def test_what_is_theirs_works_in_python(road_readings, response):
     assert float(largest) == pytest.approx(used.max(), rel=1e-12)
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_what_is_theirs_works_in_a_case_and_its_report(road_readings, tmp_path):
     case = Case.from_text(DESIGN)
     assert Case.from_text(case.to_toml()) == case

@@ -78,6 +78,7 @@ def with_works(tearing):
     return a_life().dataset.merge(works)
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_the_works_are_those_of_each_class_and_season():
     tearing = [[2e-9, 4e-9], [0.02, 0.128]]
     data = with_works(tearing)
@@ -93,6 +94,7 @@ def test_the_works_are_those_of_each_class_and_season():
     assert titles.count("What polishes and tears the surface") == 1
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 @pytest.mark.parametrize("nothing", [1e-10, np.nan])
 def test_without_shear_there_is_no_figure_of_works(nothing):
     data = with_works([[nothing, nothing]] * 2)
@@ -122,6 +124,7 @@ def test_the_sentence_tells_the_margin():
     assert "no criterion ever fails" in a_life(passes=0.0).rows()[-1].text
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_the_report_holds_verdict_criteria_laws_and_solves(tmp_path):
     save_results(a_tree(), tmp_path / "life.nc")
     tree = open_results(tmp_path / "life.nc").tree

@@ -17,7 +17,7 @@ import treadload.case
 from treadload.case import choices
 from treadload.case.criteria import CRITERION
 from treadload.read import Table
-from treadload.reporting import report, write_report
+from treadload.reporting import write_report
 from treadload.reporting.inputs import input_lists, input_table
 from treadload.reporting.reading import ReportCase
 from treadload.reporting.tables import tables_of
@@ -233,7 +233,7 @@ class _Cells(HTMLParser):
 
 
 @pytest.fixture(scope="module")
-def page(tmp_path_factory) -> str:
+def page(tmp_path_factory, page_of_dots) -> str:
     """The report of a small contact built from Python: an inflated tire without a material."""
     x = 5e-3 * (np.arange(24) - 11.5)
     gap = (x[None, :] ** 2 + x[:, None] ** 2) / 0.8
@@ -242,8 +242,7 @@ def page(tmp_path_factory) -> str:
         [tl.Layer(tl.Elastic(5.4e9, 0.35), 0.1, "asphalt"), tl.Layer(tl.Elastic(5e7, 0.4), name="soil")]
     )
     contact = tl.solve_contact(tire, road, tl.Rolling(normal_load=400.0, friction=0.7))
-    path = report([contact], tmp_path_factory.mktemp("words") / "r.html", title="By hand")
-    return path.read_text(encoding="utf-8")
+    return page_of_dots([contact], tmp_path_factory.mktemp("words") / "r.html", title="By hand")
 
 
 def test_a_tire_built_in_python_tells_the_modulus_it_is_solved_with(page):
@@ -258,6 +257,7 @@ def test_the_last_layer_is_semi_infinite(page):
     assert "for ever" not in page
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_a_life_is_told_without_code(tmp_path):
     contact = xr.Dataset({"pressure": (("y", "x"), np.ones((3, 3)))}, coords={"x": [0, 1, 2.0], "y": [0, 1, 2.0]})
     tree = xr.DataTree.from_dict({"/": xr.Dataset(attrs={"case": LIFE, "title": "t"}), "/contact": contact})

@@ -29,7 +29,7 @@ def undamaged(saved):
     return tl.open_results(saved).tree
 
 
-@pytest.mark.usefixtures("figures_as_dots")
+@pytest.mark.usefixtures("without_figures")
 @pytest.mark.parametrize("kind", ["fixed", "variable"])
 @pytest.mark.parametrize("place", ["/", "/contact", "/contact/pressure"])
 def test_a_text_that_is_not_utf8_costs_no_number(saved, undamaged, tmp_path, place, kind):

@@ -86,6 +86,7 @@ def test_slip_stiffness_of_a_half_space_is_carters():
     assert float(row["effective_radius_ratio"]) == pytest.approx(1.0, abs=2e-4)
 
 
+@pytest.mark.usefixtures("figures_as_dots")
 def test_a_card_can_be_kept_drawn_and_reported(card, tmp_path):
     path = tmp_path / "card.nc"
     tl.save_results(card, path)

@@ -7,14 +7,13 @@ from pathlib import Path
 from typing import Any
 
 import h5netcdf
-import h5py
 import numpy as np
 import xarray as xr
 from xarray.backends import H5NetCDFStore
 
 from treadload._version import __version__
 from treadload.errors import InputError
-from treadload.files import NETCDF, check_suffix, read_tree, write_whole
+from treadload.files import NETCDF, check_suffix, read_tree, remembering, write_whole
 from treadload.results.opened import Results
 from treadload.results.questions import renamed
 from treadload.results.schema import check_tree, short
@@ -48,7 +47,7 @@ def _image(data: xr.DataTree | xr.Dataset) -> bytes:
     """
     tree = data if isinstance(data, xr.DataTree) else xr.DataTree(data)
     try:
-        with h5py.File("memory", "w", driver="core", backing_store=False, track_order=True) as image:
+        with remembering("memory", "w", driver="core", backing_store=False, track_order=True) as image:
             with h5netcdf.File(image, "w") as file:
                 root = H5NetCDFStore(file)
                 for node in tree.subtree:

@@ -178,7 +178,7 @@ def _envelope(y: Array, angle: Array, r: Array, radius: float, cells: int) -> tu
     row = np.floor((y - y.min()) / (ROW * radius)).astype(np.int64)
     turn = np.floor((angle + np.pi) * (cells / (2 * np.pi))).astype(np.int64) % cells
     cell = row * cells + turn
-    order = np.lexsort((r, cell))
+    order = _by_cell_and_height(cell, r)
     start = np.flatnonzero(np.r_[True, np.diff(cell[order]) > 0])
     count = np.diff(np.r_[start, len(order)])
     keep = order[start + np.ceil(0.9 * (count - 1)).astype(np.int64)]
@@ -186,9 +186,18 @@ def _envelope(y: Array, angle: Array, r: Array, radius: float, cells: int) -> tu
     return keep, np.asarray(row, dtype=np.int64), turn[keep]
 
 
+def _by_cell_and_height(cell: Indices, r: Array) -> Indices:
+    """Order by cell, then by r: `np.lexsort((r, cell))`, faster by sorting numbers of 16 bits by their digits."""
+    rising = np.argsort(r)
+    of_cell = cell[rising]
+    if of_cell.max() < 2**16:
+        of_cell = of_cell.astype(np.uint16)
+    return np.asarray(rising[np.argsort(of_cell, kind="stable")], dtype=np.int64)
+
+
 def _meridian(row: Indices, r: Array, step: float) -> tuple[Array, Array]:
     """Height of the meridian (median of its row) and its slope, at every envelope point."""
-    order = np.lexsort((r, row))
+    order = _by_cell_and_height(row, r)
     start = np.flatnonzero(np.r_[True, np.diff(row[order]) > 0])
     count = np.diff(np.r_[start, len(order)])
     height = r[order[start + count // 2]]
