@@ -6,12 +6,12 @@ import itertools
 import math
 from collections.abc import Callable, Sequence
 from concurrent.futures import Executor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
 from treadload.contact import Contact
 from treadload.contact.maneuver import STRAIGHT
-from treadload.life.wheels import State, contact_in_state
+from treadload.life.wheels import SIDE_FORCE, State, contact_in_state
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 
@@ -39,15 +39,27 @@ class Counter:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """Contacts of a tire with a road, on cells of a spacing, m; those solved are known."""
+    """Contacts of a tire with a road, on cells of a spacing, m; those solved are known.
+
+    halved: True where wheels with a side force stand on cells half as large, see `life.halving`.
+    """
 
     tire: Tire
     spacing: float
     solved: dict[State, Contact] = field(default_factory=dict)
+    halved: bool = False
+
+    def on_halved_cells(self) -> Contacts:
+        """The same contacts, where those with a side force are solved and read on cells half as large."""
+        return replace(self, halved=True)
+
+    def of(self, state: State) -> Contact:
+        """The contact of a state, which is known."""
+        return self.solved[self._on_its_cells(state)]
 
     def missing(self, states: Sequence[State]) -> list[State]:
-        """Those of some states that are not known yet, each once."""
-        return [state for state in dict.fromkeys(states) if state not in self.solved]
+        """Those of some states that are not known yet, each once, on their cells."""
+        return [state for state in dict.fromkeys(map(self._on_its_cells, states)) if state not in self.solved]
 
     def solve(self, states: Sequence[State], road: Pavement, pool: Executor, count: Counter) -> None:
         """Make the missing ones known, each from the nearest one known before in the same maneuver.
@@ -62,16 +74,26 @@ class Contacts:
             return count.after(solved, "contact")
 
         missing = self.missing(states)
-        large = all(math.prod((state.tire or self.tire).extent) > _MANY_CELLS * self.spacing**2 for state in missing)
+        large = all(self._cells(state) > _MANY_CELLS for state in missing)
         each = pool.map if large else map
         firsts = list({state._replace(maneuver=STRAIGHT): state for state in reversed(missing)}.values())
         for wave in (firsts[::-1], missing):
             starts = [(state, self._near(state)) for state in self.missing(wave)]
             self.solved.update(zip((state for state, _ in starts), each(touch, starts), strict=True))
 
+    def _cells(self, state: State) -> float:
+        """About how many cells the tread of a state has."""
+        spacing = self.spacing / 2 if state.halved else self.spacing
+        return math.prod((state.tire or self.tire).extent) / spacing**2
+
+    def _on_its_cells(self, state: State) -> State:
+        """The state on halved cells where it has a side force and contacts are halved."""
+        return state._replace(halved=True) if self.halved and abs(state.maneuver.lateral) > SIDE_FORCE else state
+
     def _near(self, state: State) -> Contact | None:
         """The contact known whose load and pressure are nearest, relatively; None without one."""
-        of_tire = [earlier for earlier in self.solved if earlier.tire == state.tire]
+        alike_cells = [earlier for earlier in self.solved if earlier.halved == state.halved]
+        of_tire = [earlier for earlier in alike_cells if earlier.tire == state.tire]
         alike = [earlier for earlier in of_tire if earlier.maneuver == state.maneuver]
         # Of another maneuver the pressure alone serves, and that under the same load.
         alike = alike or [earlier for earlier in of_tire if earlier.numbers == state.numbers]

@@ -14,7 +14,7 @@ from treadload.life.crack import Crack
 from treadload.life.crossings import CrackLines, distances_to, nodes_of_climate, stresses
 from treadload.life.design import Design
 from treadload.life.seasons import Warmed
-from treadload.life.wheels import Wheels, across, states_of, wheels_of
+from treadload.life.wheels import Wheels, states_of, wheels_of
 from treadload.response.basin import basin_reach
 
 
@@ -48,9 +48,9 @@ class CrackStress:
         nodes = nodes_of_climate(warmth, len(warm.distinct))
         count = Counter(touched + len(classes) * len(nodes), progress)
         design.contacts.solve(states, warm.distinct[0].road, pool, count)
-        by_class = [[design.contacts.solved[state] for state in states_of(row, design.tire)] for row in classes]
+        by_class = [[design.contacts.of(state) for state in states_of(row, design.tire)] for row in classes]
         reach = basin_reach(road.road for roads in warm.by_class for road in roads)
-        y = across([contacts[0] for contacts in by_class], classes, reach)
+        y = crack.life.readings["y"].to_numpy()
         wheels = [wheels_of(contacts, row, y) for contacts, row in zip(by_class, classes, strict=True)]
         interfaces = sorted(abs(ends.mouth - place) for place in _inside(warm, ends.top, ends.bottom))
         distances = distances_to(crack.thickness, interfaces, upwards=upwards)

@@ -182,7 +182,7 @@ def _free(design: Design, axle_class: AxleClass, road: Pavement, y: Array) -> Wh
     states = states_of(rolling, design.tire)
     with pool_of(1) as pool:
         design.contacts.solve(states, road, pool, Counter(len(states), None))
-    return wheels_of([design.contacts.solved[state] for state in states], rolling, y)
+    return wheels_of([design.contacts.of(state) for state in states], rolling, y)
 
 
 def rolling_freely(maneuver: Maneuver) -> Maneuver:

@@ -30,6 +30,7 @@ from treadload.life.crack_starts import damage_across, passes_of_the_year, passe
 from treadload.life.crack_stress import CrackStress
 from treadload.life.design import Design
 from treadload.life.first_crack import opens_at_surface
+from treadload.life.halving import as_solved
 from treadload.life.passage import Passing, turns_of
 from treadload.life.seasons import Warm, roads_of
 from treadload.life.thermal_growth import DailyIntensity, daily_intensity
@@ -93,7 +94,7 @@ def _grow(
     direction: whose cracks start it, where the criterion reads a tensile strain at the surface; left out, any.
     """
     start = time.perf_counter()
-    crack = Crack.of(design.road, life, growth)
+    crack, design = Crack.of(design.road, life, growth), as_solved(design, life)
     warm = roads_of(design.road, life.criteria, life.climate.seasons, life.traffic.classes)
     with pool_of(workers) as pool:
         stress = CrackStress.solve(crack, design, warm, pool, progress)

@@ -18,6 +18,7 @@ from treadload.life.caveats import bond_caveats
 from treadload.life.climate import nodes, over_the_climate, warmth_of
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
+from treadload.life.halving import pushed_classes
 from treadload.life.passage import ANGLE, BEHIND, BORDER, DEPTH, DIP, Passing, stream_passings, turns_of
 from treadload.life.seasons import laws_of, layer_temperatures, roads_of
 from treadload.life.threads import how_many, pool_of
@@ -38,7 +39,8 @@ class Passages:
     interpolation_error: the largest that interpolation over the climate does, measured on the heaviest class: the
     relative error of its largest reading that would move damage as much; 0 if nothing was interpolated. moved: how
     far a wheel was moved to stand on the common cells, m. reach: how far around the wheels was read, m.
-    laws: (criterion, axle_class, season), of the moduli that were solved. warnings: sentences for the user.
+    laws: (criterion, axle_class, season), of the moduli that were solved. evaluated: (criterion, axle_class, season,
+    turns + `BEHIND`, y), what readings and cracks are parts of. warnings: sentences for the user.
 
     >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), inflation_pressure=8e5)
     >>> axle = tl.damage.AxleClass("cart", 1.0, wheel_load=500.0, inflation_pressure=8e5)
@@ -63,6 +65,7 @@ class Passages:
     reach: float
     wheels: tuple[Wheels, ...]
     laws: tuple[tuple[tuple[FatigueLaw, ...], ...], ...]
+    evaluated: Array
     warnings: tuple[str, ...] = ()
 
     @property
@@ -71,12 +74,19 @@ class Passages:
         return int(self.readings.sizes["axle_class"] * self.readings.sizes["season"])
 
 
-def solve_passages(design: Design, *, workers: int | None = None, progress: Progress | None = None) -> Passages:
+def solve_passages(
+    design: Design,
+    *,
+    workers: int | None = None,
+    progress: Progress | None = None,
+    earlier: Passages | None = None,
+) -> Passages:
     """What the laws read as every class of axle passes over the road in every season.
 
     A point of the road meets the whole field along x as the wheels roll by, from rest to rest, the basin around them
     included; rainflow makes cycles of it.
-    workers: threads; all cores if left out. progress: called after every solve.
+    workers: threads; all cores if left out. progress: called after every solve. earlier: of the same design before
+    contacts were halved; classes whose contacts stay keep what was read.
     One contact is solved for each load, pressure and maneuver: the road's moduli do not matter to it. With many
     seasons of one temperature each, the heaviest class is solved in all of them, and the others, criterion by
     criterion, only in those from which splines give the harm of the heaviest class within the tolerance, see
@@ -105,21 +115,32 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
     states = [state for row in classes for state in states_of(row, tire)]
     touched = len(contacts.missing(states))
     count = Counter(touched + len(classes) * len(distinct), progress)
+    solved_before = (0, 0) if earlier is None else (earlier.contacts, earlier.responses)
     threads = how_many(workers)
     with pool_of(threads) as pool:
         contacts.solve(states, distinct[0].road, pool, count)
-        by_class = [[contacts.solved[state] for state in states_of(row, tire)] for row in classes]
+        by_class = [[contacts.of(state) for state in states_of(row, tire)] for row in classes]
         reach = basin_reach(road.road for roads in warm.by_class for road in roads)
-        y = across([contacts_of_class[0] for contacts_of_class in by_class], classes, reach)
+        y = (
+            across([contacts_of_class[0] for contacts_of_class in by_class], classes, reach)
+            if earlier is None
+            else earlier.readings["y"].to_numpy()
+        )
         wheels = [
             wheels_of(contacts_of_class, row, y) for contacts_of_class, row in zip(by_class, classes, strict=True)
         ]
         turns = turns_of(wheels)
 
         values = np.empty((len(classes), len(distinct), len(criteria), turns + BEHIND, len(y)), np.float32)
+        anew = set(range(len(classes)))
+        if earlier is not None:
+            anew = set(pushed_classes(design.traffic))
+            roads_at = [warm.where.index(number) for number in range(len(distinct))]
+            values[:] = earlier.evaluated[:, :, roads_at].transpose(1, 2, 0, 3, 4)
 
         def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
+            rows = [row for row in rows if row in anew]
             tasks = [(row, number, numbers) for row in rows for number, numbers in by_road]
             passings = [
                 Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns, reach)
@@ -130,7 +151,7 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
                 values[row, number, numbers] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
-        lighter = [row for row in range(len(classes)) if row != heaviest]
+        lighter = [row for row in range(len(classes)) if row != heaviest and row in anew]
         solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
         warmths = [warmth_of(seasons, [road.road for road in roads]) for roads in warm.by_class]
         warmth, laws = warmths[heaviest], laws_of(warm, temperatures)
@@ -145,7 +166,7 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
             kept.append(chosen)
             errors.append(error)
         by_road = [(n, [k for k, chosen in enumerate(kept) if n in chosen]) for n in sorted(set().union(*kept))]
-        count.total = touched + len(distinct) + len(lighter) * len(by_road)
+        count.total = touched + (heaviest in anew) * len(distinct) + len(lighter) * len(by_road)
         if lighter:
             solve_all(lighter, by_road)
             for k, chosen in enumerate(kept):
@@ -172,13 +193,14 @@ def solve_passages(design: Design, *, workers: int | None = None, progress: Prog
         everything[:, :, :, turns + DIP],
         everything[:, :, :, turns + DEPTH],
         temperatures,
-        touched,
-        count.total - touched,
+        solved_before[0] + touched,
+        solved_before[1] + count.total - touched,
         max(errors),
         max(wheel.moved for wheel in wheels),
         reach,
         tuple(wheels),
         laws,
+        everything,
         tuple(f"{wheel.name}: {text}" for wheel in wheels for text in overlapping(wheel.loads))
         + road_caveats(distinct[0].road)
         + bond_caveats(criteria, distinct, wheels)

@@ -22,6 +22,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
+from treadload.life.halving import as_solved
 from treadload.life.stiffer import names_of, stiffer
 from treadload.life.thermal import daily_cycles
 from treadload.life.threads import pool_of
@@ -140,6 +141,7 @@ def life_sensitivity(
     """
     if not 0 < coverage <= 1:
         raise InputError(f"coverage must lie in (0, 1], got {coverage}; 0.8 is the default")
+    design = as_solved(design, life)
     data = life.dataset.sel(criterion=life.governing_criterion)
     number = [criterion.name for criterion in life.criteria].index(life.governing_criterion)
     criterion = life.criteria[number]

@@ -23,6 +23,7 @@ from treadload.life.contacts import Progress
 from treadload.life.design import Design
 from treadload.life.first_crack import first_cracks
 from treadload.life.groups import group_factors, in_words
+from treadload.life.halving import needs_halved_cells, on_halved_cells
 from treadload.life.layered_climate import climate_fields
 from treadload.life.passages import Passages, solve_passages
 from treadload.life.rutting import rut_fields
@@ -58,6 +59,7 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
     tire, road, traffic, climate = design.tire, design.road, design.traffic, design.climate
     criteria = tuple(design.criteria)
     summed = solve_sum(design, workers=workers, progress=progress)
+    design = summed.design
     life, passages, weather = summed.life, summed.passages, summed.weather
     depths = ("criterion", _read_depths(life, passages), variables.attributes("read_depth"))
     life = replace(life, dataset=life.dataset.assign(read_depth=depths))
@@ -89,20 +91,25 @@ def solve_life(design: Design, *, workers: int | None = None, progress: Progress
         "combinations": passages.combinations,
         "interpolation_error": passages.interpolation_error,
         "wheels_moved": passages.moved,
+        "halved_cells": design.contacts.halved,
         "seconds": time.perf_counter() - start,
     }
     caveats = (
         *_lifts(road, criteria), *traffic_caveats(tire, traffic, climate), *climate.warnings,
         *beyond_tables(road, climate), *(weather.warnings if weather else ()), *passages.warnings, *rut,
-        *surface_caveats(road, criteria, tire, traffic), *cell_caveats(road, criteria, traffic, design.spacing),
+        *surface_caveats(road, criteria, tire, traffic), *cell_caveats(design),
     )  # fmt: skip
     return replace(life, stats=stats, warnings=(*life.warnings, *caveats))
 
 
 @dataclass(frozen=True, eq=False)
 class Summed:
-    """Miner's sum of a design, the passages behind it, and the cycles of its weather, if it has any."""
+    """Miner's sum of a design, the passages behind it, and the cycles of its weather, if it has any.
 
+    design: with the contacts that were read, see `life.halving`.
+    """
+
+    design: Design
     life: Life
     passages: Passages
     weather: DailyCycles | None
@@ -114,19 +121,24 @@ def solve_sum(design: Design, *, workers: int | None = None, progress: Progress 
     workers, progress: as in `solve_life`. Raises InputError, and ConvergenceError of a contact.
     """
     criteria = tuple(design.criteria)
-    passages = solve_passages(design, workers=workers, progress=progress)
     weather = daily_cycles(design.road, design.climate, criteria, design.traffic)
-    life = miner(
-        passages.readings,
-        criteria,
-        design.traffic,
-        design.climate,
-        layer_temperatures=passages.layer_temperatures,
-        cracks=(passages.crack_angle, passages.crack_dip),
-        laws=passages.laws,
-        weather=weather,
-    )
-    return Summed(life, passages, weather)
+
+    def summed(design: Design, earlier: Passages | None = None) -> Summed:
+        passages = solve_passages(design, workers=workers, progress=progress, earlier=earlier)
+        life = miner(
+            passages.readings,
+            criteria,
+            design.traffic,
+            design.climate,
+            layer_temperatures=passages.layer_temperatures,
+            cracks=(passages.crack_angle, passages.crack_dip),
+            laws=passages.laws,
+            weather=weather,
+        )
+        return Summed(design, life, passages, weather)
+
+    first = summed(design)
+    return summed(on_halved_cells(design), first.passages) if needs_halved_cells(design, first.life) else first
 
 
 def with_rut(life: Life, design: Design, wheels: Sequence[Wheels]) -> tuple[Life, tuple[str, ...]]:

@@ -17,7 +17,7 @@ def surface_works(design: Design) -> dict[str, tuple[tuple[str, ...], object]]:
     largest_polishing_work (axle_class); largest_tearing_work (axle_class, season), with the shear modulus of the
     surface in the season; NaN where the wheel does not slide along, or the surface has no modulus of its own.
     """
-    solved = [design.contacts.solved[states_of(row, design.tire)[0]] for row in design.traffic.classes]
+    solved = [design.contacts.of(states_of(row, design.tire)[0]) for row in design.traffic.classes]
     polishing = [
         float(polishing_work(contact).max()) if "friction_work" in contact.dataset else float("nan")
         for contact in solved

@@ -16,6 +16,7 @@ from treadload.damage.words import RUT
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.design import Design
+from treadload.life.halving import as_solved
 from treadload.life.reliability import life_reliability
 from treadload.life.solve import solve_life
 
@@ -65,6 +66,8 @@ class ThicknessSearch:
             if self.risk is not None and not self.scatters:
                 design = replace(design, criteria=[_at(criterion, self.risk) for criterion in design.criteria])
             life = solve_life(design, **self.running)
+            # Years by thickness must not step where another thickness has other cells.
+            self.design = as_solved(self.design, life)
             self._lives[thickness] = life
             self.counts["lives"] += 1
             for name in ("contacts", "responses"):

@@ -93,12 +93,11 @@ class Solver:
         road, _, climate = questions[0]
         first = warmed(road, (self.criterion,), climate.seasons[self.pairs[0][1]])
         self.contacts.solve(states, first.road, pool, count)
-        solved = self.contacts.solved
         stand: dict[Any, Wheels] = {}
         tasks = []
         for question, several in zip(questions, classes, strict=True):
             warm_roads = in_seasons(question, self.criterion, self.pairs)
-            by_class = [[solved[state] for state in states_of(row, self.tire)] for row in several]
+            by_class = [[self.contacts.of(state) for state in states_of(row, self.tire)] for row in several]
             reach = basin_reach(warm.road for warm in warm_roads.values())
             y = across([contacts_of_class[0] for contacts_of_class in by_class], several, reach)
             wheels = {}

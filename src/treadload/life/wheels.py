@@ -104,7 +104,10 @@ def check_speed(row: AxleClass, road: Pavement) -> None:
 
 
 class State(NamedTuple):
-    """What the contact of a class depends on, besides the tire and the road."""
+    """What the contact of a class depends on, besides the tire and the road.
+
+    halved: True on cells half as large as those of the other classes, see `life.halving`.
+    """
 
     wheel_load: float
     inflation_pressure: float
@@ -112,6 +115,7 @@ class State(NamedTuple):
     friction: Any
     speed: float | None
     tire: Tire | None
+    halved: bool = False
 
     @property
     def numbers(self) -> tuple[float, float]:
@@ -137,8 +141,9 @@ def states_of(row: AxleClass, tire: Tire) -> tuple[State, ...]:
 def contact_in_state(
     tire: Tire, road: Pavement, wanted: State, spacing: float, *, start: Contact | None = None
 ) -> Contact:
-    """The contact in a state. start: one near it."""
+    """The contact in a state. spacing: of the cells of a life, m. start: one near it."""
     inflated = replace(wanted.tire or tire, inflation_pressure=wanted.inflation_pressure)
+    spacing = spacing / 2 if wanted.halved else spacing
     rolling = wanted.maneuver.rolling(wanted.wheel_load, wanted.friction, speed=wanted.speed)
     return solve_contact(inflated, road, rolling, spacing=spacing, start=start, tolerance=_TOLERANCE)
 

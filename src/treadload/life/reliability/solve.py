@@ -18,6 +18,7 @@ from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
+from treadload.life.halving import as_solved
 from treadload.life.reliability.direct import Direct
 from treadload.life.reliability.fields import Fit, reliability_dataset
 from treadload.life.reliability.inputs import check_names, inputs_of, lognormal
@@ -94,7 +95,7 @@ def life_reliability(
     fits: list[Fit] = []
     errors, covered = [], []
     with pool_of(workers) as pool:
-        direct = Direct(design, life, inputs, pool, progress)
+        direct = Direct(as_solved(design, life), life, inputs, pool, progress)
         for number, deviation in zip(chosen, deviations, strict=True):
             pairs, share = most(life.dataset["damage_share"].to_numpy()[number], coverage)
             logarithms = direct.logarithms(number, coverage, points) if inputs else np.zeros(1)

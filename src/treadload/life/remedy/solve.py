@@ -21,6 +21,7 @@ from treadload.life.caveats import beyond_tables, traffic_caveats
 from treadload.life.contacts import Counter, Progress
 from treadload.life.design import Design
 from treadload.life.equivalents import Equivalents, life_equivalents
+from treadload.life.halving import as_solved
 from treadload.life.remedy import road_changes, traffic_changes
 from treadload.life.remedy.changes import Changes, NotApplicable, Remedy, changes_of
 from treadload.life.remedy.solution import Remedies
@@ -98,7 +99,7 @@ def remedies(
         )
     if not math.isfinite(life.years(life.governing)):
         raise InputError("no criterion ever fails, so that nothing lengthens the life; give more passes")
-    candidates, refused = remedies_of(design, steps)
+    candidates, refused = remedies_of(as_solved(design, life), steps)
     skipped = [str(change) for change in refused]
     count = _counter(candidates, life, progress)
     solved: list[_Solved] = []
