@@ -81,8 +81,8 @@ def test_halved_contacts_are_those_with_a_side_force_beside_the_coarse_ones():
 
 @pytest.mark.parametrize("spacing", [2.5e-3, 3e-3, 4e-3])
 def test_wheels_on_halved_cells_stand_on_the_lines_of_the_others(spacing):
-    half, whole = (tl.solve_contact(TIRE, tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)),
-                   tl.Rolling(normal_load=5e3, friction=0.7), spacing=size) for size in (spacing / 2, spacing))  # fmt: skip
+    road, rolling = tl.Pavement.half_space(tl.Elastic(5.4e9, 0.35)), tl.Rolling(normal_load=5e3, friction=0.7)
+    half, whole = (tl.solve_contact(TIRE, road, rolling, spacing=size) for size in (spacing / 2, spacing))
     y = across([whole], [STRAIGHT], 0.3)
     assert np.diff(y) == pytest.approx(spacing / 2)
     for contact in (half, whole):

@@ -75,8 +75,8 @@ def cell_caveats(design: Design) -> tuple[str, ...]:
     spacing, cause = design.spacing, f"{near}: a side force ({pushed}) leaves tension in strips of a few millimetres"
     if design.contacts.halved:
         return (
-            f"{cause} that do enough of the damage to solve these contacts on cells of {500 * spacing:g} mm instead of "
-            f"{1e3 * spacing:g} mm: years within 3 % of those on cells of 0.75 mm",
+            f"{cause}, which do enough of the damage that these contacts were solved on cells of "
+            f"{500 * spacing:g} mm instead of {1e3 * spacing:g} mm: years within 3 % of those on cells of 0.75 mm",
         )
     if can_be_halved(design):
         return (

@@ -17,13 +17,13 @@ from treadload.life.wheels import SIDE_FORCE
 
 # Cells that are halved, m. Larger ones were chosen to save time, smaller ones are fine enough.
 _HALVED = (2e-3, 4e-3)
-# Part by which cells of 3 mm change the surface damage of wheels with a side force, at most, and that of the years which
-# a life accepts, see `docs/notes/cells_and_means.md`.
+# Part by which cells of 3 mm change the surface damage of wheels with a side force, at most, and the part of the
+# years that a life accepts, see `docs/notes/cells_and_means.md`.
 _ERROR, _ACCEPTED = 0.13, 0.025
 
 
 def can_be_halved(design: Design) -> bool:
-    """Whether its cells are of a size that is halved where years need it, and its treads have no cells of their own."""
+    """Whether cells are of a size that is halved where years need it, and no tread has cells of its own."""
     low, high = _HALVED
     treads = [design.traffic.classes[row].tire or design.tire for row in pushed_classes(design.traffic)]
     return 1.01 * low < design.spacing < 1.01 * high and all(tread.fixed_grid is None for tread in treads)
