@@ -26,7 +26,7 @@ def test_design_life(tmp_path, capsys):
     assert float(twice.sel(criterion="base, bottom-up")) == pytest.approx(40.2, rel=0.05)
     assert float(twice.sel(criterion="platform, rutting")) == pytest.approx(167, rel=0.05)
     said = capsys.readouterr().out
-    assert "base, bottom-up governs" in said
+    assert "Governing criterion: base, bottom-up. " in said
     assert "9 contacts" in said
     page = (tmp_path / "life.html").read_text()
     assert "What the life depends on" in page

@@ -116,12 +116,13 @@ def test_inputs_are_changed_by_five_per_cent_and_a_degree():
 def test_the_sentence_tells_the_margin():
     life = a_life(years=20.0, passes=1e3)
     used = float(life.dataset["design_damage"].sel(criterion=life.governing))
-    assert f"uses up {100 * used:.0f} %" in life.rows()[-1].text
+    assert f"20 years, reached with a damage of {used:.2g}" in life.rows()[-1].text
     assert not exhausted(life.dataset)
     early = a_life(passes=1e7)
-    assert "before the end of its design life of 20 years" in early.rows()[-1].text
+    missing = 20 - early.years(early.governing)
+    assert f"20 years, not reached: {missing:.3g} years too short" in early.rows()[-1].text
     assert exhausted(early.dataset)
-    assert "no criterion ever fails" in a_life(passes=0.0).rows()[-1].text
+    assert "no criterion fails" in a_life(passes=0.0).rows()[-1].text
 
 
 @pytest.mark.usefixtures("figures_as_dots")

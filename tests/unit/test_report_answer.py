@@ -40,11 +40,12 @@ def first_picture(page):
     return html.unescape(title[1])
 
 
-def card(page, number=0):
-    return [
-        html.unescape(re.sub(r"<[^>]+>", "", text))
-        for text in re.findall(r'<p class="(?:headline|sentence|why)">(.*?)</p>', page)
-    ][3 * number : 3 * number + 3]
+def card(page):
+    """The headline and the facts of the first answer."""
+    (article,) = re.findall(r'<article class="card.*?</article>', page, re.DOTALL)[:1]
+    facts = re.findall(r"<dt>(.*?)</dt><dd>(.*?)</dd>", article)
+    headline = re.search(r'<p class="headline">(.*?)</p>', article)[1]
+    return html.unescape(headline), {term: html.unescape(text) for term, text in facts}
 
 
 def test_a_run_begins_with_the_cracks_to_expect(coarse_result, tmp_path):
@@ -52,28 +53,25 @@ def test_a_run_begins_with_the_cracks_to_expect(coarse_result, tmp_path):
     assert first_picture(page) == "Cracks to expect"
     # Once, not in its section again.
     assert page.count("<b>Cracks to expect.</b>") == 1
-    headline, sentence, why = card(page)
+    headline, facts = card(page)
     rows = {row.key: row for row in coarse_result.verdict.rows()}
     passes = float(rows["worst_passes"].value)
     assert headline.startswith(
         "Does not govern: more than 10¹⁰" if passes >= 1e10 else "Allowable load repetitions: "
     )
-    assert "load repetitions at the worst point" in sentence
-    assert f"Evaluated tensile strain {rows['worst_strain'].number} microstrain at x = " in why
-    assert "at the surface" in why or "deep" in why
+    assert f": {rows['worst_strain'].number} microstrain, " in facts["Why"]
+    assert re.fullmatch(r"(surface|\d+ mm deep); x = \S+ mm, y = \S+ mm", facts["Place"])
 
 
 def test_a_life_begins_with_its_criteria(tmp_path):
     result = life()
     page = page_of(result, tmp_path)
     assert first_picture(page) == "Life by criterion"
-    headline, sentence, why = card(page)
+    headline, facts = card(page)
     rows = {row.key: row for row in result.rows() if not row.group}
     assert headline == f"Service life: {rows['governing_years'].text}"
-    governing = str(rows["governing"].value)
-    assert sentence.lower().startswith(f"{governing} governs")
-    assert why.startswith(governing.capitalize())
-    assert "most damage by" in why
+    assert facts["Governing criterion"] == str(rows["governing"].value)
+    assert "most damage by" in facts["Why"]
 
 
 def test_lives_that_outlast_all_roads_do_not_govern(tmp_path):
@@ -92,10 +90,10 @@ def test_lives_that_outlast_all_roads_do_not_govern(tmp_path):
 def test_a_study_begins_with_a_curve_and_its_range(tmp_path):
     page = page_of(MADE["Sweep"](), tmp_path)
     assert first_picture(page).startswith("Against friction")
-    headline, why = re.findall(r'<p class="(?:headline|why)">(.*?)</p>', page)
+    headline, extent = re.findall(r'<p class="(?:headline|sentence)">(.*?)</p>', page)
     assert headline == "2 of 2 cases solved"
-    assert "(friction 0.4)" in why
-    assert "(friction 0.6)" in why
+    assert "(friction 0.4)" in extent
+    assert "(friction 0.6)" in extent
 
 
 def test_two_results_begin_with_both_on_one_scale(coarse_result, tmp_path):
@@ -107,7 +105,7 @@ def test_two_results_begin_with_both_on_one_scale(coarse_result, tmp_path):
 def test_the_answer_is_in_us_units(coarse_result, tmp_path):
     with display_units("us"):
         page = page_of(coarse_result, tmp_path)
-    assert re.search(r"microstrain at x = \S+ in, y = \S+ in", card(page)[2])
+    assert re.fullmatch(r"(surface|\S+ in deep); x = \S+ in, y = \S+ in", card(page)[1]["Place"])
 
 
 def test_sections_are_as_wide_as_the_page(coarse_result):

@@ -21,6 +21,7 @@ from treadload.life.wheels import Wheels
 from treadload.plots.life import life_years
 from treadload.plots.ruts import life_rut
 from treadload.response import GridLoad, solve_response
+from treadload.units import years_in_words
 
 CASE = ONE_AXLE.replace("temperature = 15", "temperature = 30") + (
     '[rutting]\nlimit = "10 mm"\n[[criteria]]\nname = "soil"\nlaw = "french-subgrade"\n'
@@ -154,13 +155,13 @@ def test_a_rut_governs_a_life_as_a_criterion_does(asked, years, first):
 def test_a_case_tells_its_rut_and_a_file_keeps_it(tmp_path):
     result = tl.run(Case.from_text(CASE), leave_out=("sensitivity",))
     said = result.summary()
-    assert "the rut governs" in said
+    assert "Governing criterion: rut" in said
     assert "rut of 10 mm reached after" in said
     opened = tl.open_results(tl.save_results(result, tmp_path / "r.nc"))
     assert opened.life.summary() == result.life.summary()
     page = tl.report(opened, tmp_path / "r.html").read_text()
     assert "rut of 10 mm reached after" in page
-    assert "the rut governs and ends the service life" in page
+    assert f"Service life: {years_in_words(result.life.rut_years)}" in page
     assert "could not be drawn" not in page
 
 

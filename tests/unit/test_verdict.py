@@ -195,7 +195,7 @@ def test_a_law_in_place_of_a_line():
     assert float(verdict.dataset["worst_passes"]) == pytest.approx(law.allowable_passes(1e-4), rel=1e-11)
     assert verdict.dataset.attrs["epsilon_6"] == law.at_a_million
     assert verdict.warnings == warnings_of(law, 1e-4)
-    assert "the fatigue law allows" in verdict.summary()
+    assert f"Allowable load repetitions: {law.allowable_passes(1e-4):.3g}. " in verdict.summary()
 
 
 def test_extrapolation_stands_in_the_summary():

@@ -51,14 +51,14 @@ class Allowed(TypedDict, total=False):
 class Card(TypedDict):
     """The answer at a glance. state: "meets" or "short" of the design life, "open" where none is given.
 
-    facts: label and text each. not_governing: criteria that do not govern. map: what the brightest spot of the map
-    is, "" of a run without one.
+    facts: term and text each. further: criteria that do not govern, "" without any. map: what the brightest spot of
+    the map is, "" of a run without one.
     """
 
     state: str
     headline: str
     facts: list[tuple[str, str]]
-    not_governing: list[str]
+    further: str
     map: str
 
 

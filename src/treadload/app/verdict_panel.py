@@ -76,10 +76,9 @@ class VerdictPanel:
                 for label, fact in card["facts"]:
                     text("dt", label)
                     with_attributes(text("dd", fact), data_fact=label)
-            for line in card["not_governing"]:
-                text("p", line).classes("note")
-            if card["map"]:
-                text("p", card["map"]).classes("note").props('id="bright"')
+            for line, name in ((card["further"], "further"), (card["map"], "bright")):
+                if line:
+                    text("p", line).classes("note").props(f'id="{name}"')
 
     def show_allowed(self, allowed: Allowed) -> None:
         """Show load repetitions by criterion below the numbers; they are known last."""

@@ -37,15 +37,6 @@ def in_a_cell(orientation: str) -> str:
     return orientation if opens_down(orientation) else "none runs down: it splits parallel to the surface"
 
 
-def first_to_expect(orientation: str) -> str:
-    """Which crack comes first, in a clause."""
-    if orientation == ORIENTATIONS[NONE]:
-        return "no principal stress is tensile there, no crack opens"
-    if not opens_down(orientation):
-        return "the road splits along a plane closer to horizontal than to vertical; no crack runs down from it"
-    return f"{'an' if orientation[0] in 'aeiou' else 'a'} {orientation} crack is the first to expect"
-
-
 def nothing_opens(unread: float) -> str:
     """Why nothing cracks, in a sentence. unread: the largest extension, whatever opens."""
     if unread <= 0:

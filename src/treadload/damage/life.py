@@ -12,6 +12,7 @@ import xarray as xr
 
 from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult, Columns, Holds
+from treadload.damage.answer import RUT, Answer, life_answer
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
@@ -19,12 +20,10 @@ from treadload.damage.traffic import Traffic
 from treadload.damage.words import (
     OF_SENSITIVITY,
     PER_CRITERION,
-    RUT,
     STEEPEST,
     check_life,
     heading_of,
     life_rows,
-    verdict_in_words,
 )
 from treadload.rows import Row, row
 
@@ -172,7 +171,6 @@ class Life(BaseResult, group="life"):
 
     def rows(self) -> tuple[Row, ...]:
         """Every criterion with what does most of its damage, the rut, what governs, and the assessment."""
-        years = self.years(self.governing)
         rows = life_rows(self.dataset, self.criteria, self.traffic)
         if self.stats:
             solved = (
@@ -181,9 +179,10 @@ class Life(BaseResult, group="life"):
                 "evaluated value".format(**self.stats)
             )
             rows.append(row("solved", solved))
-        return (
-            *rows,
-            row("governing", self.governing),
-            row("governing_years", years),
-            row("verdict", verdict_in_words(self.dataset, self.governing, years)),
-        )
+        rows += [row("governing", self.governing), row("governing_years", self.years(self.governing))]
+        return (*rows, row("verdict", life_answer(self.dataset, rows).sentence))
+
+    @property
+    def answer(self) -> Answer:
+        """The service life, what governs it, where and why."""
+        return life_answer(self.dataset, self.rows())

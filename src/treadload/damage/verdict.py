@@ -13,14 +13,13 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Columns, Holds, Source
+from treadload.damage.answer import Answer, fatigue_answer
 from treadload.damage.border import border_in_words, evaluated_further
 from treadload.damage.cracks import (
     OBLIQUE_TOLERANCE,
     ORIENTATIONS,
     check_tolerance,
-    first_to_expect,
     in_a_cell,
-    nothing_opens,
     opens_down,
     orientation,
 )
@@ -103,6 +102,11 @@ class Verdict(BaseResult, group="damage"):
         *before, verdict = rows_of(self.dataset, str(line), self.strain, line.at_a_million)
         return (*before, *self._error_estimate(), row("law_conditions", conditions_of(line)), verdict)
 
+    @property
+    def answer(self) -> Answer:
+        """Allowable load repetitions, or that the law does not govern; the worst point, direction and cause."""
+        return fatigue_answer(self.dataset, self.rows())
+
     def _error_estimate(self) -> list[Row]:
         """What coarser cells change, where that was asked for, see `treadload.assess`."""
         about, strain = self.dataset.attrs, float(self.dataset["worst_strain"])
@@ -134,24 +138,22 @@ def rows_of(data: xr.Dataset, law: str, strain_read: str, at_a_million: float) -
         row("contacts_evaluated", under(data)),
         *(row(name, float(about.get(name, math.nan))) for name in _LARGEST),
     ]
-    if not strain > 0:
-        return (*rows, row("verdict", nothing_opens(float(about.get("largest_unread", 0.0)))))
+    if strain > 0:
+        rows += _worst_rows(data, strain, at_a_million)
+    return (*rows, row("verdict", fatigue_answer(data, rows).sentence))
+
+
+def _worst_rows(data: xr.Dataset, strain: float, at_a_million: float) -> list[Row]:
+    """Rows of the worst point and its crack."""
     x, y, depth, passes = (float(data[f"worst_{name}"]) for name in ("x", "y", "depth", "passes"))
     word = ORIENTATIONS[int(data["worst_crack_orientation"])]
-    comparison = "fewer" if passes < 1e6 else "more"
-    return (
-        *rows,
+    return [
         row("worst_strain", strain, place=Place(x, y, depth)),
         row("strain_ratio", strain / at_a_million),
         row("worst_crack_orientation", in_a_cell(word), label="" if opens_down(word) else "plane"),
         *_plane(word, float(data["worst_crack_angle"]), float(data["worst_crack_dip"])),
         row("worst_passes", passes),
-        row(
-            "verdict",
-            f"the fatigue law allows {repetitions_in_words(passes)} load repetitions at the worst point, "
-            f"{comparison} than a million; {first_to_expect(word)}.",
-        ),
-    )
+    ]
 
 
 def _plane(word: str, angle: float, dip: float) -> list[Row]:

@@ -22,14 +22,11 @@ from treadload.damage.traffic import Traffic
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row
-from treadload.units import LASTS, repetitions_in_words, years_in_words
+from treadload.units import repetitions_in_words, years_in_words
 from treadload.variables import Display, display_of
 
 # Damage across flat planes above this share of a criterion's is worth a sentence.
 _MOSTLY = 0.2
-RUT = "rut"
-"""What a life calls its rut among what ends it."""
-
 DIRECTIONS = ("transverse", "longitudinal")
 """Directions of cracks from the surface that are evaluated side by side."""
 CAUSES = ("hogging", "tread", "braking or driving")
@@ -78,7 +75,9 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
     data: of a `Life`.
     """
     name, quantity = criterion.name, criterion.quantity
-    interface = json.loads(data.attrs.get("between", "{}")).get(name)
+    between = json.loads(data.attrs.get("between", "{}")).get(name)
+    number = f"layer {criterion.layer + 1}" if criterion.layer >= 0 else "the last layer"
+    notes = {"read_depth": between or f"{criterion.place} of {number}"}
     at = data.sel(criterion=name)
     span = "a year" if traffic.years is None else f"{traffic.years:g} years"
     value = Display(display_of("largest_reading").label, "", quantity.in_words)
@@ -87,9 +86,9 @@ def criterion_rows(data: xr.Dataset, criterion: Criterion, traffic: Traffic) -> 
         row("life_passes", at["life_passes"], group=name),
         row(
             "largest_reading", at["largest_reading"], group=name, display=value,
-            note=f"largest {str(quantity).removeprefix('largest ')}{f', {interface}' if interface else ''}",
+            note=f"largest {str(quantity).removeprefix('largest ')}",
         ),
-        *(row(key, at[key], group=name) for key in ("read_depth", "worst_y") if key in at),
+        *(row(key, at[key], group=name, note=notes.get(key, "")) for key in ("read_depth", "worst_y") if key in at),
     ]  # fmt: skip
     rows += [
         row(key, at[key], group=name, label=f"{display_of(key).label} in {span}")
@@ -152,43 +151,6 @@ def cause_in_words(data: xr.Dataset, name: str) -> str:
         f"{name}: {first} first, under {load} ({100 * share.max():.0f} % of the damage), {when}; {second} {later}; "
         f"at the worst place, y = {1e3 * float(at['worst_y']):z.0f} mm, its damage is {causes}"
     )
-
-
-def verdict_in_words(data: xr.Dataset, governing: str, years: float) -> str:
-    """What ends a road first, a criterion or `RUT`, and how that compares with the design life. data: of a `Life`."""
-    if math.isinf(years):
-        return "no criterion ever fails under this traffic."
-    of_surface = governing in json.loads(data.attrs.get("surface_lines", "{}"))
-    caveat = "Years at the surface are no forecast: see what roads show." if of_surface else ""
-    return " ".join(filter(None, (_ends(data, governing, years), caveat, _far(data, governing))))
-
-
-def _far(data: xr.Dataset, governing: str) -> str:
-    """A sentence on criteria that do not govern: that they last longer than years are stated; empty without any."""
-    names, years, passes = (data[name].to_numpy() for name in ("criterion", "life_years", "life_passes"))
-    far = [
-        f"{name}: {years_in_words(float(at))}"
-        + (f" ({repetitions_in_words(float(count))} repetitions)" if math.isfinite(count) else "")
-        for name, at, count in zip(names, years, passes, strict=True)
-        if name != governing and at > LASTS
-    ]
-    return f"Does not govern: {'; '.join(far)}." if far else ""
-
-
-def _ends(data: xr.Dataset, governing: str, years: float) -> str:
-    """What governs, and how that compares with the design life."""
-    what = "the rut" if governing == RUT else governing
-    sentence = f"{what} governs and ends the service life after {years_in_words(years)}"
-    if "design_years" not in data.attrs:
-        return f"{sentence}."
-    design = float(data.attrs["design_years"])
-    if years < design:
-        early = years_in_words(design - years)
-        return f"{sentence}, {early} before the end of its design life of {design:g} years."
-    if governing == RUT or "design_damage" not in data:
-        return f"{sentence}."
-    used = 100 * float(data["design_damage"].sel(criterion=governing))
-    return f"{sentence}: a design life of {design:g} years uses up {used:.0f} % of it."
 
 
 def by_whom(data: xr.Dataset) -> str:

@@ -6,12 +6,12 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from treadload.contact.contact_grid import DEFAULT_SPACING
+from treadload.damage.answer import RUT
 from treadload.damage.climate import Climate
 from treadload.damage.criterion import Criterion
 from treadload.damage.rutting import Rutting
 from treadload.damage.scatter import Scatter
 from treadload.damage.traffic import Traffic
-from treadload.damage.words import RUT
 from treadload.errors import InputError
 from treadload.life.contacts import Contacts
 from treadload.pavement import Pavement

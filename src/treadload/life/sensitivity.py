@@ -12,12 +12,13 @@ import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
+from treadload.damage.answer import RUT
 from treadload.damage.criterion import Criterion
 from treadload.damage.life import Life
 from treadload.damage.miner import damage_of, wander_of
 from treadload.damage.thermal import years_until
 from treadload.damage.traffic import AxleClass, Traffic, Wander
-from treadload.damage.words import RUT, STEEPEST
+from treadload.damage.words import STEEPEST
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress

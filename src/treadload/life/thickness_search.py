@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import scipy
 
+from treadload.damage.answer import RUT
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.life import Life
-from treadload.damage.words import RUT
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.design import Design

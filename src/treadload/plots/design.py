@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, NullFormatter
 
 from treadload.composing import Source
-from treadload.damage.words import RUT
+from treadload.damage.answer import RUT
 from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes
 from treadload.plots.kit.plan import fields_of

@@ -18,11 +18,11 @@ from treadload.reporting.pictures import Picture, pictures_of
 from treadload.rows import Row, from_json
 from treadload.us_units import us_unit
 
-_FACTS = ("governing", "governing_years", "rut_depth", "rut_years")
+_FACTS = ("rut_depth", "rut_years")
 # Of the governing criterion, in the answer or in the table of all criteria.
 _BELOW = (
     "life_years", "life_passes", "law_conditions", "largest_reading", "read_depth", "worst_y", "damage_by",
-    "first_crack",
+    "first_crack", "design_damage",
 )  # fmt: skip
 _WORK = "J/m²"
 

@@ -7,6 +7,7 @@ import re
 from treadload.plots.kit.style import thousands
 from treadload.rows import Row
 from treadload.units import times_power_of_ten
+from treadload.us_units import sentence_in_display_units
 
 # A number such as 1.2e+05 in a sentence.
 _POWER = re.compile(r"\d+(?:\.\d+)?e[+-]?\d+")
@@ -21,6 +22,11 @@ def typeset(row: Row, *, bare: bool = False) -> str:
     if isinstance(row.value, str):
         return text
     return thousands(float(text)) if _WHOLE.fullmatch(text) else with_minus(text)
+
+
+def typeset_text(text: str) -> str:
+    """A text with its numbers in the units of display and in the characters of a page."""
+    return with_minus(with_powers(sentence_in_display_units(text)))
 
 
 def with_powers(text: str) -> str:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections import Counter
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from treadload.case import Case
 from treadload.case.criteria import CRITERION
 from treadload.damage import Verdict
+from treadload.damage.answer import Answer, listed, place_in_words, repetitions_answer
 from treadload.damage.border import beyond_the_map
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
@@ -27,6 +29,7 @@ from treadload.response import solve_response
 from treadload.response.basin import basin_reach
 from treadload.response.superposition import common_grid
 from treadload.steps.loaded import Loaded
+from treadload.units import repetitions_in_words
 
 # Class of traffic whose probability of failure the laws of layers take, 5 %: that of the first case of a life too.
 _TRAFFIC = "T1"
@@ -80,6 +83,31 @@ class PassesAllowed:
 
     rows: tuple[Allowed, ...]
     without: tuple[str, ...] = ()
+
+    def answer(self, alone: Answer | None) -> Answer:
+        """The answer by all criteria. alone: that of the fatigue law of the case, whose row is the first, or None."""
+        first = min(self.rows, key=lambda line: line.passes)
+        count = Counter(line.name for line in self.rows)
+        # One law of several layers is named with the layer.
+        further = [
+            f"{line.name}{f', {line.layer}' if count[line.name] > 1 else ''}{_repetitions(line)}"
+            for line in self.rows
+            if line is not first
+        ]
+        if alone is not None and first is self.rows[0]:
+            return replace(alone, further=listed(further))
+        place = place_in_words(", ".join(filter(None, (first.layer, first.place))), first.depth, first.x, first.y)
+        beyond = ", outside the range of its tests" if first.extrapolated else ""
+        why = f"{first.reads}: {first.reads.in_words(first.reading)}{beyond}"
+        if not first.reading > 0:
+            place, why = "", "no criterion evaluates a harmful value under this load"
+        facts = [("Place", place)] if place else []
+        return repetitions_answer(first.passes, first.name, [*facts, ("Why", why)], further)
+
+
+def _repetitions(line: Allowed) -> str:
+    words = repetitions_in_words(line.passes)
+    return f" with {words} load repetitions" if line.reading > 0 else ", whose value is not harmful"
 
 
 def criteria_of_layers(case: Case) -> tuple[list[Criterion], list[str]]:

@@ -11,10 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from treadload import variables
+from treadload.damage.answer import RUT
 from treadload.damage.laws.validity import outside
 from treadload.damage.life import Life
 from treadload.damage.miner import miner
-from treadload.damage.words import RUT
 from treadload.errors import InputError, TreadloadError
 from treadload.kernels.arrays import Array
 from treadload.life.caveats import beyond_tables, traffic_caveats
