@@ -40,13 +40,13 @@ class Serving:
 
 
 @contextmanager
-def serving(folder, *options, printed="http://127.0.0.1:"):
-    """A server of its own; nothing of it is left behind. printed: what its address begins with."""
+def serving(folder, *options, printed="http://127.0.0.1:", units="si"):
+    """A server of its own; nothing of it is left behind. printed: what its address begins with. units: of results."""
     source = str(Path(tl.__file__).parents[1])
     # The server is no test: nicegui looks for signs of pytest in the environment.
     env = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST_")}
     env |= {"OMP_NUM_THREADS": "1", "TMPDIR": str(folder), "PYTHONPATH": source}
-    command = [sys.executable, "-m", "treadload", "app", *(options or ("--no-open",))]
+    command = [sys.executable, "-m", "treadload", "--units", units, "app", *(options or ("--no-open",))]
     with (folder / "err").open("w") as err:
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=err, text=True, env=env, cwd=folder)
     try:

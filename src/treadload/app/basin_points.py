@@ -11,6 +11,7 @@ from treadload.describing import title_of
 from treadload.errors import InputError
 from treadload.plots.interactive.basins import basin_fit, moduli_profile
 from treadload.roads import Backcalculation
+from treadload.us_units import sentence_in_display_units
 from treadload.variables import modulus_in_words
 
 # Drops of a list and characters of a text that a browser is sent.
@@ -95,4 +96,12 @@ def basin_rows(result: Backcalculation, drop: int) -> list[PageRow]:
 
 
 def _row(key: str, label: str, value: str, heading: str) -> PageRow:
-    return {"key": key, "label": label, "value": value, "heading": heading, "about": "", "group": "", "note": ""}
+    return {
+        "key": key,
+        "label": label,
+        "value": sentence_in_display_units(value),
+        "heading": heading,
+        "about": "",
+        "group": "",
+        "note": "",
+    }

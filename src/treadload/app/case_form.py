@@ -19,6 +19,11 @@ from treadload.app.session import FILES, Session
 from treadload.app.tread_section import TreadSection
 from treadload.app.uploads import Uploads
 from treadload.errors import InputError
+from treadload.us_units import in_us_units
+
+_IN_US_UNITS = (
+    "A number in a field is in the SI unit at the field, or has its unit: 8000 lbf. Results are in US units."
+)
 
 
 class CaseForm(Uploads):
@@ -66,6 +71,8 @@ class CaseForm(Uploads):
             self._whole()
 
     def _whole(self) -> None:
+        if in_us_units():
+            ui.label(_IN_US_UNITS).classes("note").props('id="units"')
         whole = self.form.parts(self.session.folder)
         tables = [part for part in whole.parts if isinstance(part, Group | Rows)]
         self._heading("Case", "")

@@ -20,6 +20,7 @@ from treadload.app.session import FOOTPRINTS, Run, Session
 from treadload.app.slice_panel import SlicePanel
 from treadload.app.verdict_panel import VerdictPanel
 from treadload.registry import PAGES
+from treadload.us_units import sentence_in_display_units
 
 # Of a thumbnail, letters of its data URL.
 _MOST_LETTERS = 200_000
@@ -153,7 +154,7 @@ class ContactPage(Page):
                 select.set_options(options, value=wanted)
         if depths and depths != self._depths:
             self._depths = depths
-            named = {number: f"{depth * 1e3:g} mm" for number, depth in enumerate(depths)}
+            named = {number: sentence_in_display_units(f"{depth * 1e3:g} mm") for number, depth in enumerate(depths)}
             self._view["depth"] = min(self._view["depth"], len(depths) - 1)
             self._depth.set_options(named, value=self._view["depth"])
 

@@ -24,7 +24,7 @@ from treadload.app.answers import SOLVES, View
 from treadload.app.basin_points import about_basins, basin_figures, basin_rows, basins_of
 from treadload.app.opened_files import check_opened
 from treadload.app.pictures import picture_of, pictures_for, pictures_of, titles_of
-from treadload.app.result_rows import allowed_rows, page_rows, rows_of
+from treadload.app.result_rows import allowed_rows, page_rows, rows_of, warnings_of
 from treadload.app.stored_run import Stopped, StoredRun, StoredRuns
 from treadload.app.study_points import about_study, point_of, point_rows, study_of
 from treadload.app.study_solver import rank_sections, ranked_sections, solve_study
@@ -45,6 +45,7 @@ from treadload.steps.loaded import contact_of
 from treadload.steps.scene import Options, Progress, Scene, stream
 from treadload.sweeps.network import Network
 from treadload.templates import first_case
+from treadload.us_units import display_units
 
 # Depths of the block of road below the maps, from which slices along any line are cut.
 _BLOCK_DEPTHS = 12
@@ -55,10 +56,10 @@ Say = Callable[..., None]
 
 
 class Engine:
-    """What one process holds. memory: the most that it may use, MB; 0 without a limit."""
+    """What one process holds. memory: the most that it may use, MB; 0 without a limit. units: of what it shows."""
 
-    def __init__(self, write: Callable[[str], None], memory: int = 0) -> None:
-        self._write, self._lock, self._memory = write, threading.Lock(), memory
+    def __init__(self, write: Callable[[str], None], memory: int = 0, units: str = "si") -> None:
+        self._write, self._lock, self._memory, self._units = write, threading.Lock(), memory, units
         self.runs = StoredRuns()
         self._stop = threading.Event()
         self._solving: threading.Thread | None = None
@@ -105,7 +106,9 @@ class Engine:
 
     def _guarded(self, say: Say, do: Callable[..., None], request: dict[str, object]) -> None:
         try:
-            do(say, **request)
+            # A thread starts without the units of the one that started it.
+            with display_units(self._units):
+                do(say, **request)
         except Stopped:
             say(stopped=True)
         except TreadloadError as error:
@@ -136,7 +139,6 @@ class Engine:
 
         def shown(stage: str) -> None:
             self.runs.keep(run, stored)
-            warnings = [text for part in stored.parts.values() for text in part.warnings]
             drawn = (
                 map_figures.places(stored.parts, theme=theme)
                 if stage == "damage" and not map_figures.shows_damage(**view)
@@ -145,7 +147,7 @@ class Engine:
             if stage == "contact":
                 drawn |= map_figures.along(stored.parts, None, view.get("line"), theme=theme, with_source=False)
             say(drawn, part=stage, rows=rows_of(stored.parts),
-                warnings=list(dict.fromkeys(warnings)), choices=map_figures.choices_of(stored.parts),
+                warnings=warnings_of(*stored.parts.values()), choices=map_figures.choices_of(stored.parts),
                 depths=map_figures.depths_of(stored.parts), card=card_of(stored.parts),
                 seconds=time.monotonic() - began, process=time.process_time() - used)  # fmt: skip
 
@@ -222,15 +224,14 @@ class Engine:
         network = self.runs.run_of(run).parts["network"]
         assert isinstance(network, Network)
         say(sections=ranked_sections(network), rows=page_rows(network.rows(), "Network"),
-            warnings=list(network.warnings), done=True)  # fmt: skip
+            warnings=warnings_of(network), done=True)  # fmt: skip
 
     def _details(self, stored: StoredRun, criterion: str = "") -> dict[str, object]:
         """Rows, warnings and criteria of a life."""
-        warnings = [text for part in stored.parts.values() for text in part.warnings]
         names = [str(name) for name in stored.parts["life"].dataset["criterion"].to_numpy()]
         return {
             "rows": rows_of(stored.parts, criterion),
-            "warnings": list(dict.fromkeys(warnings)),
+            "warnings": warnings_of(*stored.parts.values()),
             "criteria": names,
             "card": card_of(stored.parts),
         }
@@ -258,9 +259,8 @@ class Engine:
 
     def _maps(self, say: Say, run: str, theme: str, view: View) -> None:
         stored = self.runs.run_of(run)
-        warnings = [text for part in stored.parts.values() for text in part.warnings]
         say(map_figures.maps(stored.parts, theme=theme, **view), rows=rows_of(stored.parts), done=True,
-            warnings=list(dict.fromkeys(warnings)), choices=map_figures.choices_of(stored.parts),
+            warnings=warnings_of(*stored.parts.values()), choices=map_figures.choices_of(stored.parts),
             depths=map_figures.depths_of(stored.parts), card=card_of(stored.parts), run=run)  # fmt: skip
 
     def _cut(
@@ -320,7 +320,7 @@ class Engine:
                width: float) -> None:  # fmt: skip
         study = study_of(self.runs.run_of(run).parts)
         say(point_of(study, at, reading, along, field, theme, width), rows=point_rows(study, at),
-            warnings=list(study.warnings), done=True)  # fmt: skip
+            warnings=warnings_of(study), done=True)  # fmt: skip
 
     def _basins(self, say: Say, run: str) -> None:
         say(**about_basins(basins_of(self.runs.run_of(run).parts)), done=True)
@@ -330,7 +330,7 @@ class Engine:
         say(
             basin_figures(result, drop, theme),
             rows=basin_rows(result, drop),
-            warnings=list(result.warnings),
+            warnings=warnings_of(result),
             done=True,
         )
 
@@ -384,7 +384,7 @@ def main() -> None:
             # The page has ended, and nobody is left to be told.
             os._exit(0)
 
-    engine = Engine(write, memory)
+    engine = Engine(write, memory, os.environ.get("TREADLOAD_UNITS", "si"))
     warm()
     write('{"id": 0, "warm": true}\n')
     with contextlib.suppress(KeyboardInterrupt):

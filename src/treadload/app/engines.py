@@ -14,6 +14,7 @@ from pathlib import Path
 
 from treadload.app.answers import SOLVES, Answer
 from treadload.app.service import Limits
+from treadload.us_units import in_us_units
 
 # A figure of many cells is one line.
 _LONGEST_LINE = 2**28
@@ -53,7 +54,11 @@ class Engine:
             stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
             # Ctrl-C is for the page, which ends its processes; one that still loads would print where it was.
             start_new_session=True,
-            env={**os.environ, "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1")},
+            env={
+                **os.environ,
+                "OMP_NUM_THREADS": os.environ.get("OMP_NUM_THREADS", "1"),
+                "TREADLOAD_UNITS": "us" if in_us_units() else "si",
+            },
         )  # fmt: skip
         engine = cls(process, limits.time)
         if await engine._waiting[0].get() is None:

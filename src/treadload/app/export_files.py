@@ -14,6 +14,7 @@ from treadload.files import write_whole
 from treadload.reporting import report
 from treadload.results import save_results
 from treadload.results.exports import csv_files
+from treadload.us_units import display_units
 
 KINDS = {"nc": "result.nc", "html": "report.html", "csv": "tables.zip"}
 """What the process of a browser writes, and how the file is called at home."""
@@ -36,11 +37,14 @@ def write_export(
     path = folder / f"{run}_{KINDS[kind]}"
     if path.exists():
         return path.name
-    if kind == "nc":
-        save_results(whole(), path)
-    elif kind == "html":
+    if kind == "html":
         report(whole(), path)
-    else:
+        return path.name
+    # Files of results stay in SI units.
+    with display_units("si"):
+        if kind == "nc":
+            save_results(whole(), path)
+            return path.name
         content = io.BytesIO()
         with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
             for file, pieces in csv_files(dict(parts), Path("tables.csv")):

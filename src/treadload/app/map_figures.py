@@ -17,6 +17,7 @@ from treadload.footprint import Footprint
 from treadload.plots import interactive
 from treadload.plots.interactive import Cut, Field
 from treadload.plots.interactive.browser_grids import Grid
+from treadload.plots.interactive.us_figure import line_in_display_units
 from treadload.response import Response
 
 if TYPE_CHECKING:
@@ -166,7 +167,7 @@ def along(
 
 @dataclass(frozen=True)
 class SourcedFigure:
-    """A figure along a line, mm, and the grids that a browser holds to draw other lines."""
+    """A figure along a line, in the unit of the map, and the grids that a browser holds to draw other lines."""
 
     figure: Figure
     grids: list[Grid]
@@ -177,7 +178,7 @@ class SourcedFigure:
         """The figure with its grids, or the figure alone where they are too large to be sent."""
         if interactive.held_numbers(grids) > interactive.MOST_HELD:
             return figure
-        return cls(figure, grids, (*cut.start_mm, *cut.end_mm))
+        return cls(figure, grids, line_in_display_units((*cut.start_mm, *cut.end_mm)))
 
     def to_json(self) -> str:
         """As plotly's own text, with "held" besides."""

@@ -15,6 +15,7 @@ from treadload.damage import Life
 from treadload.rows import Place, Row, row
 from treadload.steps.allowed import PassesAllowed
 from treadload.units import repetitions_in_words
+from treadload.us_units import sentence_in_display_units
 from treadload.variables import Display
 
 """key, label, value with its unit, heading, about (of the heading), group, note; x, y, depth, m, where it holds."""
@@ -66,11 +67,19 @@ def page_rows(rows: Iterable[Row], heading: str, about: str = "") -> list[PageRo
     return [_page_row(line, heading, about) for line in rows]
 
 
+def warnings_of(*parts: BaseResult) -> list[str]:
+    """Warnings of some results, each once, in the units of display."""
+    texts = dict.fromkeys(text for part in parts for text in part.warnings)
+    return [sentence_in_display_units(text) for text in texts]
+
+
 def _page_row(line: Row, heading: str, about: str) -> PageRow:
     place: PageRow = {} if line.place is None else {"x": line.place.x, "y": line.place.y, "depth": line.place.depth}
     return {
-        "key": f"{line.key}:{line.group}" if line.group else line.key, "label": label_of(line.label),
-        "value": line.text, "heading": heading, "about": about, "group": line.group, "note": line.remark, **place,
+        "key": f"{line.key}:{line.group}" if line.group else line.key,
+        "label": sentence_in_display_units(label_of(line.label)),
+        "value": line.text, "heading": heading, "about": about,
+        "group": sentence_in_display_units(line.group), "note": line.remark, **place,
     }  # fmt: skip
 
 
@@ -88,8 +97,9 @@ def allowed_rows(allowed: PassesAllowed) -> list[PageRow]:
                  place=Place(line.x, line.y) if is_harmed else None)],
             "Allowable load repetitions by criterion",
         )  # fmt: skip
-        shown.append({**page_line, "label": line.name, "note": ". ".join((str(line.law), *line.warnings)),
-                      "detail": f"{place}: {reading}"})  # fmt: skip
+        note = sentence_in_display_units(". ".join((str(line.law), *line.warnings)))
+        detail = sentence_in_display_units(f"{place}: {reading}")
+        shown.append({**page_line, "label": line.name, "note": note, "detail": detail})
     return shown
 
 

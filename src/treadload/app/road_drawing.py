@@ -10,6 +10,7 @@ from treadload.case import Case
 from treadload.errors import TreadloadError
 from treadload.materials.kinds import elastic_part
 from treadload.pavement import Pavement, is_bituminous
+from treadload.plots.interactive.us_figure import in_display_units
 from treadload.tire import Tire
 from treadload.tire.tread import ProfileSurface
 
@@ -92,7 +93,7 @@ def _width_of(tire: Tire) -> float:
 
 
 def drawing_of(road: Pavement, axles: list[_Axle]) -> dict[str, object]:
-    """The figure, as plotly reads it; lengths in mm, one scale for both axes."""
+    """The figure, as plotly reads it, in the units of display; one scale for both axes."""
     spans = [(axle.across, axle) for axle in axles]
     total = sum(high - low for (low, high), _ in spans) + 2 * _BESIDE + _BETWEEN * (len(spans) - 1)
     depths = [0.0, *(float(depth) for depth in road.interfaces)]
@@ -130,22 +131,24 @@ def drawing_of(road: Pavement, axles: list[_Axle]) -> dict[str, object]:
     height = scale * (deepest + _WHEEL) + _TOP + _BOTTOM
     axis = {"showgrid": False, "zeroline": False, "fixedrange": True}
     ticks = {"ticks": "outside", "tickfont": {"size": 10}, "nticks": 4}
-    return {
-        "data": [],
-        "layout": {
+    _, layout = in_display_units(
+        [],
+        {
             "height": max(height, down + scale * _WHEEL + _TOP + _BOTTOM), "showlegend": False, "shapes": shapes,
             "annotations": notes, "margin": {"l": 6, "r": _RIGHT, "t": _TOP, "b": _BOTTOM},
             "font": {"size": 10, "color": _INK}, "paper_bgcolor": "rgba(0,0,0,0)", "plot_bgcolor": "rgba(0,0,0,0)",
             "xaxis": {**axis, **ticks, "range": [0, 1e3 * total], "title": {"text": _caption(axles), "standoff": 2}},
             "yaxis": {**axis, "visible": False, "range": [-1e3 * deepest, 1e3 * _WHEEL], "scaleanchor": "x",
-                      "scaleratio": 1, "constrain": "domain"},
+                      "title": {"text": "(mm)"}, "scaleratio": 1, "constrain": "domain"},
         },
-    }  # fmt: skip
+    )  # fmt: skip
+    return {"data": [], "layout": layout}
 
 
 def _caption(axles: list[_Axle]) -> str:
     widths = sorted({round(1e3 * axle.width) for axle in axles if axle.width})
-    return f"mm; tread {' or '.join(map(str, widths))} mm wide" if widths else "mm; width of the tread from its file"
+    tread = f"tread {' or '.join(map(str, widths))} mm wide" if widths else "width of the tread from its file"
+    return f"(mm); {tread}"
 
 
 def _box(left: float, top: float, right: float, bottom: float, fill: str, line: str = "") -> dict[str, object]:

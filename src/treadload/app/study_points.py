@@ -14,6 +14,7 @@ from treadload.plots.interactive.study import placed, study_curve, study_map, st
 from treadload.plots.kit.shown import shown
 from treadload.plots.sweeps.reading import FAILED, View, beside
 from treadload.sweeps import Sweep
+from treadload.us_units import sentence_in_display_units
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
@@ -106,4 +107,5 @@ def point_rows(study: Sweep, at: dict[str, int]) -> list[PageRow]:
 
 
 def _row(key: str, label: str, value: str, heading: str = "Solved") -> PageRow:
-    return {"key": key, "label": label, "value": value, "heading": heading, "about": "", "group": "", "note": ""}
+    shown = sentence_in_display_units(value)
+    return {"key": key, "label": label, "value": shown, "heading": heading, "about": "", "group": "", "note": ""}

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 from treadload.app.figure_place import Place
 from treadload.app.form import Form, profile_of
+from treadload.plots.interactive.us_figure import in_display_units
 
 _POINTS = 241
 
@@ -29,15 +30,15 @@ class TreadSection:
             # Floors below the tie bars.
             lines.append((untied, "dot"))
         axis = {"showgrid": False, "zeroline": False, "ticks": "outside", "tickfont": {"size": 10}}
-        figure = {
-            "data": [{"type": "scatter", "mode": "lines", "x": [1e3 * y for y in places], "hoverinfo": "skip",
+        data, layout = in_display_units(
+            [{"type": "scatter", "mode": "lines", "x": [1e3 * y for y in places], "hoverinfo": "skip",
                       "y": [-1e3 * float(depth) for depth in tread.drop(places)],  # type: ignore[arg-type]
                       "line": {"color": "#8a94a0", "width": 2 if dash == "solid" else 1, "dash": dash}}
                      for tread, dash in lines],
-            "layout": {"height": 120, "showlegend": False, "margin": {"l": 34, "r": 6, "t": 6, "b": 30},
+            {"height": 120, "showlegend": False, "margin": {"l": 34, "r": 6, "t": 6, "b": 30},
                        "font": {"size": 10, "color": "#8a94a0"},
                        "paper_bgcolor": "rgba(0,0,0,0)", "plot_bgcolor": "rgba(0,0,0,0)",
                        "xaxis": {**axis, "title": {"text": "y (mm)", "standoff": 2}},
                        "yaxis": {**axis, "title": {"text": "mm"}}},
-        }  # fmt: skip
-        self._place.draw(json.dumps(figure))
+        )  # fmt: skip
+        self._place.draw(json.dumps({"data": data, "layout": layout}))

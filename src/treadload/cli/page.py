@@ -48,6 +48,6 @@ def app(
         # The server knows the others, and closes its sessions.
         signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     try:
-        serve(host=host, port=port, open_browser=open_browser, service=service)
+        serve(host=host, port=port, open_browser=open_browser, service=service, units=shell.chosen_units())
     except KeyboardInterrupt:
         raise KeyboardInterrupt("the page is closed, and results that were not taken home are gone") from None

@@ -32,6 +32,7 @@ from treadload.results.dataset import Fields
 from treadload.results.questions import Writer
 from treadload.results.roads import rows_of
 from treadload.rows import as_json
+from treadload.us_units import display_units
 
 FORMAT = 2
 """Format of the files: 1 holds fields, words and the case; 2 also the inputs of every result."""
@@ -47,6 +48,8 @@ _ANSWERS = {"sentence": "verdict", "governing": "governing"}
 _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")
 
 
+# Files stay in SI units, whatever is shown.
+@display_units("si")
 def to_tree(
     parts: Any,
     *,

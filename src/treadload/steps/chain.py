@@ -12,6 +12,7 @@ import xarray as xr
 
 from treadload.case import Case
 from treadload.composing import BaseResult
+from treadload.damage import Life, Verdict
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.input_caveats import question_caveats, road_caveats
@@ -19,6 +20,7 @@ from treadload.results import Study, road_in_rows, to_tree
 from treadload.results.opened import ALIASES
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Options, Progress, Scene, group_names, stream
+from treadload.us_units import display_units
 
 Shown = Callable[[str, BaseResult], None]
 
@@ -59,17 +61,20 @@ class Result(Study):
 
     def to_tree(self) -> xr.DataTree:
         """All results in one tree with provenance, ready to be saved."""
+        with display_units("si"):
+            text = self.text()
         road, season = self.case.source.road_of(self.case, self.parts)
-        return to_tree(self.parts, case=self.case, road=road, season=season, summary=self.text())
+        return to_tree(self.parts, case=self.case, road=road, season=season, summary=text)
 
     def text(self) -> str:
-        """One screen: what loads the road, its layers, and all further results but those for figures alone."""
+        """One screen: the answer, what loads the road, its layers, and all further results but those for figures."""
         quiet = {group for step in self.case.steps if step.is_quiet for group in step.makes}
         texts = [part.text() for group, part in self.parts.items() if group not in quiet]
         if self.case.source.states_road and self.road is not None:
             # The road stands behind what loads it.
             texts.insert(1 if "contact" in self.parts else 0, road_in_rows(self.road, self.case))
-        return "\n\n".join(texts)
+        answer = next((part.answer for part in self.parts.values() if isinstance(part, Life | Verdict)), None)
+        return "\n\n".join([*([] if answer is None else [answer.headline]), *texts])
 
     __repr__ = first_line
 

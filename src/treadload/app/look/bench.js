@@ -87,7 +87,8 @@ function moved(wanted) {
   const line = window.treadloadWithin(maps(), wanted, lain);
   if (maps()) window.treadloadLine(maps(), line);
   lies(line);
-  emitEvent("line", { ...line, drawn: slice(line) });
+  const mm = treadloadMillimetres(maps()), ends = Object.entries(line).map(([key, end]) => [key, mm * end]);
+  emitEvent("line", { ...Object.fromEntries(ends), drawn: slice(line) });
 }
 // The slider and the number beside it follow the line, whoever has put it.
 function lies({ x0, y0, x1, y1 }) {
@@ -96,15 +97,19 @@ function lies({ x0, y0, x1, y1 }) {
   if (!slider) return;
   if (flat || upright) {
     [along, at] = flat ? ["x", y0] : ["y", x0];
-    slider.value = at;
+    slider.value = at * treadloadMillimetres(maps());
   }
-  const told = `${flat ? "y" : "x"} ${String(Math.round(10 * at) / 10).replace("-", "−")} mm`;
+  const [unit, parts] = treadloadMillimetres(maps()) === 1 ? ["mm", 10] : ["in", 100];
+  const told = `${flat ? "y" : "x"} ${String(Math.round(parts * at) / parts).replace("-", "−")} ${unit}`;
   document.getElementById("placed").textContent = flat || upright ? told : "aslant";
+  slider.setAttribute("aria-valuetext", told);
 }
 // The line put along travel or across it, at a place, mm.
 window.treadloadPut = (change) => {
-  ({ along, at } = { along, at, ...change });
-  const half = 160, ends = along === "x" ? { x0: -half, y0: at, x1: half, y1: at } : { x0: at, y0: -half, x1: at, y1: half };
+  const mm = treadloadMillimetres(maps()), half = 160 / mm;
+  if ("at" in change) at = change.at / mm;
+  along = change.along ?? along;
+  const ends = along === "x" ? { x0: -half, y0: at, x1: half, y1: at } : { x0: at, y0: -half, x1: at, y1: half };
   moved(ends);
 };
 
@@ -134,8 +139,9 @@ window.treadloadLinkTo = async (link) => {
 };
 
 window.treadloadFly = (x, y) => {
-  const place = maps(), half = 60;
+  const place = maps(), mm = treadloadMillimetres(place), half = 60 / mm;
   if (!place) return;
+  [x, y] = [x / mm, y / mm];
   // A place beyond the map is shown together with the map.
   const map = place._fullData[0], ends = ({ 0: first, length, [length - 1]: last }) => [first, last];
   const [[left, right], [near, far]] = [ends(map.x), ends(map.y)];

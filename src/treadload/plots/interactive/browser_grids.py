@@ -12,6 +12,7 @@ import xarray as xr
 from treadload.composing import Source, dataset_of
 from treadload.kernels.arrays import Array
 from treadload.plots.interactive.section_rows import SectionRows
+from treadload.plots.interactive.us_figure import line_in_display_units, values_in_display_units
 from treadload.plots.kit.layers import Layers
 from treadload.plots.kit.plan import KPA, MICRO, MM, Plan, fields_of, plane
 from treadload.plots.kit.shown import shown
@@ -22,9 +23,10 @@ MOST_HELD = 2_000_000
 
 
 class Grid(TypedDict):
-    """x, y: centres, mm. fields: (ny, nx) each, as base64 of little-endian single floats, in the unit of the figure.
+    """x, y: centres, in the unit of the map. fields: (ny, nx) each, as base64 of little-endian single floats, in the
+    unit of the figure.
 
-    smooth: read between the centres, or of the cell. step: of points on an oblique line, mm. rows: of a section, see
+    smooth: read between the centres, or of the cell. step: of points on an oblique line. rows: of a section, see
     `SectionRows.as_lists`.
     """
 
@@ -41,12 +43,12 @@ def profile_held(source: Source, overlaid: Mapping[str, Source] | None = None) -
     data = fields_of(source)
     plan = Plan.of(data)
     if "pressure" in data:
-        grids = [_grid(plan, contact_curves(data), smooth=False)]
+        grids = [_grid(plan, contact_curves(data), "kPa", smooth=False)]
     else:
-        grids = [_grid(plan, response_curves(data), smooth=True)]
+        grids = [_grid(plan, response_curves(data), "microstrain", smooth=True)]
     for overlay in (overlaid or {}).values():
         over = fields_of(overlay, "pressure")
-        grids.append(_grid(Plan.of(over), [np.nan_to_num(plane(over, "pressure")) * KPA], smooth=False))
+        grids.append(_grid(Plan.of(over), [np.nan_to_num(plane(over, "pressure")) * KPA], "kPa", smooth=False))
     return grids
 
 
@@ -57,9 +59,10 @@ def section_held(response: Source, name: str) -> list[Grid]:
     """
     data = dataset_of(response)
     order = np.argsort(data["depth"].to_numpy(), kind="stable")
-    values = data[name].transpose("depth", "y", "x").to_numpy() * shown(data[name]).factor
+    display = shown(data[name])
+    values = data[name].transpose("depth", "y", "x").to_numpy() * display.factor
     rows = SectionRows.of(data["depth"].to_numpy()[order] * MM, Layers.of(data))
-    return [{**_grid(Plan.of(data), values[order], smooth=True), "rows": rows.as_lists()}]
+    return [{**_grid(Plan.of(data), values[order], display.unit, smooth=True), "rows": rows.as_lists()}]
 
 
 def held_numbers(grids: Iterable[Grid]) -> int:
@@ -89,9 +92,11 @@ def response_curves(data: xr.Dataset) -> list[Array]:
     ]
 
 
-def _grid(plan: Plan, fields: Sequence[Array] | Array, *, smooth: bool) -> Grid:
+def _grid(plan: Plan, fields: Sequence[Array] | Array, unit: str, *, smooth: bool) -> Grid:
+    x, y, (step,) = (line_in_display_units(at) for at in (plan.x, plan.y, (plan.cell / (2 if smooth else 4),)))
+    fields = [values_in_display_units(field, unit) for field in fields]
     return {
-        "x": [round(float(value), 4) for value in plan.x], "y": [round(float(value), 4) for value in plan.y],
-        "smooth": smooth, "step": plan.cell / (2 if smooth else 4),
+        "x": [round(float(value), 5) for value in x], "y": [round(float(value), 5) for value in y],
+        "smooth": smooth, "step": step,
         "fields": [base64.b64encode(np.asarray(field, dtype="<f4").tobytes()).decode() for field in fields],
     }  # fmt: skip

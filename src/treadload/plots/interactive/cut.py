@@ -110,7 +110,7 @@ class Cut:
         if self.start[0] == self.end[0]:
             return y * MM, f"y, right of travel (mm), at x = {signed(self.start[0] * MM)} mm"
         ends = [signed(number, 0) for number in (*self.start_mm, *self.end_mm)]
-        return where * MM, "from ({}, {}) to ({}, {}) mm, distance (mm)".format(*ends)
+        return where * MM, "from x = {}, y = {} mm to x = {}, y = {} mm, distance (mm)".format(*ends)
 
 
 def sampled(values: Array, x: Array, y: Array, at_x: Array, at_y: Array, *, smooth: bool) -> Array:

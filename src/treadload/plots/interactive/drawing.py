@@ -12,6 +12,7 @@ from treadload.errors import InputError, how_to_install
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.interactive.field import Field
 from treadload.plots.interactive.theme import Theme, colour_scale, template
+from treadload.plots.interactive.us_figure import in_display_units
 from treadload.plots.kit.plan import X_LABEL, Y_LABEL, Plan, borders
 
 if TYPE_CHECKING:
@@ -26,14 +27,15 @@ _LINE = {"contact": ("muted", 1.0), "stick": ("stick", 2.0), "slip": ("slip", 1.
 
 
 def figure(traces: Sequence[Trace], layout: dict[str, object], theme: Theme) -> Figure:
-    """A Figure of plotly. Raises InputError where plotly is not installed."""
+    """A Figure of plotly in the units of display. Raises InputError where plotly is not installed."""
     try:
         import plotly.graph_objects
     except ImportError as error:
         raise InputError(
             f"interactive figures need plotly, which is not installed; {how_to_install('app')}, or draw with .plot"
         ) from error
-    return plotly.graph_objects.Figure({"data": list(traces), "layout": {"template": template(theme), **layout}})
+    shown, page = in_display_units(traces, layout)
+    return plotly.graph_objects.Figure({"data": shown, "layout": {"template": template(theme), **page}})
 
 
 def cells(field: Field, axes: tuple[str, str], theme: Theme, bar: dict[str, object]) -> Trace:

@@ -51,7 +51,10 @@ window.treadloadLink = function (maps, below, load) {
   });
 };
 
-// A line {x0, y0, x1, y1}, mm, inside the outer edges of a map: one that was moved as a whole (as long as the line
+// Millimetres of a unit of a figure's axes: figures are drawn in millimetres or in inches, as their titles state.
+window.treadloadMillimetres = (place) => /\(in\)/.test(place?.layout?.xaxis?.title?.text ?? "") ? 25.4 : 1;
+
+// A line {x0, y0, x1, y1}, in the unit of a map, inside the outer edges of a map: one that was moved as a whole (as long as the line
 // before, and in its direction) comes back as a whole, else its ends do. One of no length gives way to the line before.
 window.treadloadWithin = (maps, line, before = null) => {
   const drawn = (maps?._fullData ?? []).find((trace) => trace.type === "heatmap" && trace.visible === true);
@@ -107,7 +110,7 @@ window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
     const share = n > 1 ? Math.min(1, Math.max(0, (at - c[low]) / (c[high] - c[low]))) : 0;
     return [low, high, share];
   };
-  // Where along a cut {x0, y0, x1, y1}, mm, the fields of a grid are read, and what they say there.
+  // Where along a cut {x0, y0, x1, y1} the fields of a grid are read, and what they say there.
   function along(grid, cut) {
     const fields = fieldsOf(grid), nx = grid.x.length, length = Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0);
     const level = Math.abs(cut.y1 - cut.y0) < 1e-9, upright = Math.abs(cut.x1 - cut.x0) < 1e-9;
@@ -134,19 +137,23 @@ window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
     }
     return { at, rows };
   }
-  const said = (cut) => {
-    const mm = (v, digits) => (v.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1")).replace("-", "\u2212");
-    if (Math.abs(cut.y1 - cut.y0) < 1e-9) return `x, direction of travel (mm), at y = ${mm(cut.y0, 1)} mm`;
-    if (Math.abs(cut.x1 - cut.x0) < 1e-9) return `y, right of travel (mm), at x = ${mm(cut.x0, 1)} mm`;
-    return `from (${mm(cut.x0, 0)}, ${mm(cut.y0, 0)}) to (${mm(cut.x1, 0)}, ${mm(cut.y1, 0)}) mm, distance (mm)`;
+  const said = (place, cut) => {
+    const unit = window.treadloadMillimetres(place) === 1 ? "mm" : "in";
+    const digits = (v, least) => unit === "mm" ? least : least + (Math.abs(v) < 10 ? 2 : 1);
+    const num = (v, least) => (v.toFixed(digits(v, least)).replace(/^-(0(\.0*)?)$/, "$1")).replace("-", "\u2212");
+    if (Math.abs(cut.y1 - cut.y0) < 1e-9) return `x, direction of travel (${unit}), at y = ${num(cut.y0, 1)} ${unit}`;
+    if (Math.abs(cut.x1 - cut.x0) < 1e-9) return `y, right of travel (${unit}), at x = ${num(cut.x0, 1)} ${unit}`;
+    const end = (x, y) => `x = ${num(x, 0)}, y = ${num(y, 0)} ${unit}`;
+    return `from ${end(cut.x0, cut.y0)} to ${end(cut.x1, cut.y1)}, distance (${unit})`;
   };
-  const axis = (cut, at) => ({ "xaxis.title.text": said(cut), "xaxis.range": [at[0], at[at.length - 1]] });
+  const axis = (place, cut, at) =>
+    ({ "xaxis.title.text": said(place, cut), "xaxis.range": [at[0], at[at.length - 1]] });
 
   window.treadloadProfile = (place, grids, cut) => {
     if (!(Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0) > 0)) return null;
     const parts = grids.map((grid) => along(grid, cut));
     const x = parts.flatMap(({ at, rows }) => rows.map(() => at)), y = parts.flatMap(({ rows }) => rows);
-    return Plotly.update(place, { x, y }, axis(cut, parts[0].at), y.map((_, n) => n));
+    return Plotly.update(place, { x, y }, axis(place, cut, parts[0].at), y.map((_, n) => n));
   };
   window.treadloadSection = (place, grids, cut) => {
     if (!(Math.hypot(cut.x1 - cut.x0, cut.y1 - cut.y0) > 0)) return null;
@@ -156,6 +163,6 @@ window.treadloadLine = (maps, { x0, y0, x1, y1 }) => {
     // Rows between the depths, of one layer each: `plots/interactive/section_rows.py`.
     const z = grids[0].rows.map(([low, high, share]) => rows[low].map((value, n) =>
       value === null || rows[high][n] === null ? null : value * (1 - share) + rows[high][n] * share));
-    return Plotly.update(place, { x: [sides], z: [z] }, axis(cut, at), [0]);
+    return Plotly.update(place, { x: [sides], z: [z] }, axis(place, cut, at), [0]);
   };
 })();
