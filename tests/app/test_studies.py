@@ -113,7 +113,7 @@ def test_a_store_of_zarr_is_refused_with_its_reason():
 
 def test_the_map_of_a_failed_case_says_so(study):
     """And that of a solved one does not."""
-    for friction, told in ((0, ["this case failed; why stands at the right"]), (2, [])):
+    for friction, told in ((0, ["this case failed; the reason is at the right"]), (2, [])):
         at = {"rolling.friction": friction, "rolling.normal_load": 0}
         field = point_of(study, at, "largest_pressure", "rolling.friction", "pressure", "light", 900.0)["field"]
         assert [one.text for one in field.layout.annotations] == told

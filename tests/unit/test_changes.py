@@ -30,7 +30,7 @@ from treadload.case.changes import changed
 )
 def test_a_value_is_toml_or_text(change, read):
     if read is None:
-        with pytest.raises(tl.InputError, match="stands in place of a tire"):
+        with pytest.raises(tl.InputError, match="replaces a tire"):
             tl.Case.from_text(COARSE_CASE, changes=[change])
         return
     case = tl.Case.from_text(COARSE_CASE, changes=[change])

@@ -179,7 +179,7 @@ def free(stress_zz=0.0):
         (lambda: peak(compute_quantities(RESPONSE, ["mean_stress"]), "mazars"), "hold mean_stress, got 'mazars'"),
         (lambda: peak(compute_quantities(RESPONSE, ["mean_stress"]), "mean_stress", deepest=-1.0), "up to -1.0 m"),
         (lambda: tension_behind(SimpleNamespace(dataset=RESPONSE.dataset.isel(depth=[1]))), "with depth 0"),
-        (lambda: tension_behind(free()), "no pressure stands on the surface"),
+        (lambda: tension_behind(free()), "no pressure acts on the surface"),
         (lambda: tension_behind(free(-1e6)), "reaches the first x of the response, -0.1 m"),
         (lambda: EnergyRatio(1e-10, 2.0, 2e6, 2500, 1e10), r"slope must lie in \(0, 1\), got 2.0"),
         (lambda: EnergyRatio(1e-10, 0.5, 7e6, 2500, 1e10), "below 6.36 MPa in this regression, got 7 MPa"),

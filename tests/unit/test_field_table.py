@@ -94,7 +94,7 @@ def without(column):
         ({"rows": [ROWS[0].replace(",6,12,", ",-1,12,"), *ROWS[1:]]}, ["'1-a'", "-1 years", "before it was built"]),
         ({"rows": [ROWS[0].replace(",6,12,", ",6,4,"), *ROWS[1:]]}, ["'1-a'", "at 4 years", "first at 6"]),
         ({"rows": [ROWS[0].replace(",6,12,", ",,12,"), *ROWS[1:]]}, ["'1-a'", "no age of its surveys"]),
-        ({"rows": [ROWS[0], ROWS[0]]}, ["'1-a' stands twice"]),
+        ({"rows": [ROWS[0], ROWS[0]]}, ["'1-a' is there twice"]),
         (without("first_crack_is"), ["1 sections have no age", "'2-a'", 'empty_crack = "none seen"', "not recorded"]),
         (
             {"rows": [row.replace("100,50", "4,50").replace("150,", "6,").replace("200,", "8,") for row in ROWS]},

@@ -260,7 +260,7 @@ def test_a_colour_that_means_two_pressures_is_refused(tmp_path):
          "all 9 loaded sensels read the saturation of 500 kPa"),
         (tekscan([MAP]).replace("300", "3O0"), "frame 1: the value is '3O0', not a number"),
         (tekscan([MAP]).replace("300", "030"), "with a zero in front"),
-        (tekscan([MAP]).replace("Frame 1\r\n", ""), "values stand before the first line Frame"),
+        (tekscan([MAP]).replace("Frame 1\r\n", ""), "values come before the first line Frame"),
         (tekscan([MAP]).partition("ASCII_DATA")[0], "no line ASCII_DATA"),
         (tekscan([MAP]).replace("300", "1e999"), "is infinite"),
     ],

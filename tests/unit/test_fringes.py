@@ -410,7 +410,7 @@ def test_matrices_that_no_lens_has_are_refused():
         CameraProjector(((1.0,),), RIG.model.projector, 1000.0)
     with pytest.raises(InputError, match="singular"):
         CameraProjector(((0.0,) * 4,) * 3, RIG.model.projector, 1000.0)
-    with pytest.raises(InputError, match="stand in one place"):
+    with pytest.raises(InputError, match="are in one place"):
         CameraProjector(RIG.model.camera, RIG.model.camera, 1000.0)
     with pytest.raises(InputError, match="3 to 64 pictures"):
         solve_steps(np.zeros((2, 3, 3)))

@@ -102,7 +102,7 @@ def test_a_missing_reading_is_a_hole(tmp_path):
         (HEAD.replace("# pin: 9.7 mm\n", "") + rows_of(), 'write "# pin: 9.7 mm" above the header'),
         (HEAD.replace("9.7 mm", "9.7 m") + rows_of(), "9700 mm wide, and 1 to 100 mm"),
         (HEAD.replace("9.7 mm", "1 mm x 2 mm x 3 mm") + rows_of(), '"9.7 mm round" or "12 mm x 8 mm"'),
-        (HEAD.replace("9.7 mm", "25 mm") + rows_of(), "pins 25 mm wide stand 20 mm apart"),
+        (HEAD.replace("9.7 mm", "25 mm") + rows_of(), "pins 25 mm wide are 20 mm apart"),
         (HEAD.replace("# pin", "# pin: 8 mm\n# pin") + rows_of(), "twice, 8 mm and 9.7 mm"),
         (HEAD.replace("lateral [kPa]", "lateral") + rows_of(), 'write "lateral \\[kPa\\]"'),
         (HEAD.replace("lateral [kPa]", "lateral [mm]") + rows_of(), "not a unit of a stress such as kPa or a force"),
@@ -346,7 +346,7 @@ def test_what_a_row_of_pins_lacks(tmp_path):
     assert row.pins.pin == pytest.approx((8e-3, 8e-3))
     # Ribs between pins, and a surface of which no ribs are known.
     with pytest.raises(
-        tl.InputError, match=r"no pin stands under a rib: they are 10 mm apart and the widest rib is 0\.1 mm"
+        tl.InputError, match=r"no pin is under a rib: they are 10 mm apart and the widest rib is 0\.1 mm"
     ):
         PinBlocks.of(sample_pins(LOAD, pin=8e-3, pitch=10e-3, offset=5e-3), np.array([[0.0, 1e-4]]))
     flat = tl.Tire.from_height_map(np.zeros((20, 20)), 5e-3, material=tl.Elastic(3e6, 0.5))

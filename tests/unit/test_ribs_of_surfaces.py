@@ -292,7 +292,7 @@ friction = 0.7
     assert "tread='ribs'" in script
     assert "undertread=0.006" in script
     for wrong, words in (
-        (text.replace('belt = "315/80R22.5"\n', ""), "stands on a belt"),
+        (text.replace('belt = "315/80R22.5"\n', ""), "needs a belt"),
         (text.replace('tread = "ribs"\n', ""), "undertread"),
     ):
         with pytest.raises(InputError, match=words):

@@ -285,7 +285,7 @@ def test_what_changes_nothing_is_refused():
     ("response", "message"),
     [
         ("wheels = []", "wheels needs at least one wheel"),
-        ("wheels = [{ y = 0.1 }, { y = 0.1 }]", "two of the wheels stand at the same place"),
+        ("wheels = [{ y = 0.1 }, { y = 0.1 }]", "two of the wheels are at the same place"),
         ("wheels = [{ z = 0.1 }]", r"unknown key 'response\.wheels\.0\.z'"),
         ("speed = -1", "speed must be >= 0 m/s, got -1"),
         ('side = "under"', r"response\.side: Input should be 'above' or 'below'"),
@@ -387,7 +387,7 @@ def test_report_of_a_recorded_footprint(tmp_path):
 
 
 def test_a_footprint_leaves_no_place_for_a_tire(tmp_path):
-    with pytest.raises(tl.InputError, match="a footprint stands in place of a tire; leave out tire"):
+    with pytest.raises(tl.InputError, match="a footprint replaces a tire; leave out tire"):
         footprint(tmp_path, '[tire]\nprofile = "315/80R22.5"')
     with pytest.raises(tl.InputError, match="leave out rolling"):
         footprint(tmp_path, "[rolling]\nnormal_load = 1\nfriction = 1")

@@ -103,7 +103,7 @@ def test_every_format_of_clouds_gives_the_same_tire(tmp_path):
 def test_points_at_few_places_are_no_tire(tmp_path):
     """Below twelve places there were no neighbours to lay a plane through."""
     places = np.random.default_rng(1).normal(size=(6, 3))
-    with pytest.raises(GeometryError, match="stand at 6 places, too few"):
+    with pytest.raises(GeometryError, match="are at 6 places, too few"):
         Tire.from_scan(text(tmp_path / "cloud.xyz", np.tile(places, (200, 1))), units="m")
 
 

@@ -113,7 +113,7 @@ def test_ranges_and_lists_as_texts(case, text, values):
     ("text", "said"),
     [
         ("friction", "write key=values"),
-        ("friction=0,3", "a list stands in brackets"),
+        ("friction=0,3", "write a list in brackets"),
         ("friction=0.3:0.9", "low:high:count"),
         ("friction=0.3:0.9:1", "from 2 to"),
         ("friction=0.3:0.9:x", "from 2 to"),

@@ -347,7 +347,7 @@ def test_a_maker_s_file_states_what_is_doubtful():
     assert tire.deflection.shape == (2, 21)  # the first of two tables
     assert tire.deflection[1, -1] == pytest.approx(54758.0)
     text = " ".join(tire.warnings)
-    assert "stands twice" in text
+    assert "is given twice" in text
     assert "5.0" in text
     assert "Default value" in text
     assert tire.forces(tire.nominal_load, slip=0.1).tractive_force > 0
@@ -431,7 +431,7 @@ def test_a_file_that_ends_in_a_section_is_refused(tmp_path, key):
         ("LENGTH = 'meter'", "", "LENGTH = 'meter'"),
         ("PKX1 = 19.5", "PKX1 = 19.5.1", "PKX1 is '19.5.1'"),
         ("PKX1 = 19.5", "PKX1 = inf", "PKX1 is 'inf'"),
-        ("PKX1 = 19.5", "PKX1 = 19.5\nPKX1 = 20", "PKX1 = 20 stands in line"),
+        ("PKX1 = 19.5", "PKX1 = 19.5\nPKX1 = 20", "PKX1 = 20 is already given in line"),
         ("PKX1 = 19.5", "PKX1 19.5", "neither KEY = value nor a row"),
         ("PKY1 = -16.3", "PKY1 = 16.3", "PKY1 must be negative, got 16.3"),
         ("NOMPRES = 220000", "", "NOMPRES"),

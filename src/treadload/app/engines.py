@@ -62,7 +62,7 @@ class Engine:
         )  # fmt: skip
         engine = cls(process, limits.time)
         if await engine._waiting[0].get() is None:
-            raise EngineLost("the process that solves did not start; its reason stands in the terminal")
+            raise EngineLost("the process that solves did not start; its reason is in the terminal")
         return engine
 
     @property

@@ -75,7 +75,7 @@ def point_of(
         figures["field"] = study_map(study, field, at, theme=theme, width=width)
         view = View.of(study)
         if int(view.data["status"].isel(placed(view, at))) == FAILED:
-            note = "this case failed; why stands at the right"
+            note = "this case failed; the reason is at the right"
             figures["field"].add_annotation(
                 text=note, showarrow=False, x=0.5, y=0.9, xref="x domain", yref="y domain"
             )

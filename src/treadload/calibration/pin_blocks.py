@@ -50,7 +50,7 @@ class PinBlocks:
         """Blocks of pins under ribs with these faces (ribs, 2), m; the pins are moved across to where they fit these
         best.
 
-        Raises InputError where no pin stands under a rib.
+        Raises InputError where no pin is under a rib.
         """
         sensor = sensor.moved(0.0, register_pins(_uniform(faces, sensor), sensor).shift_y)
         places, there = sensor.grid, sensor.sensels
@@ -71,7 +71,7 @@ class PinBlocks:
                         names.append(f"{THIRDS[third]} third of rib {rib + 1}, part {k + 1} from the rear")
         if not names:
             raise InputError(
-                f"no pin stands under a rib: they are {places.dy * 1e3:.3g} mm apart and the widest rib is "
+                f"no pin is under a rib: they are {places.dy * 1e3:.3g} mm apart and the widest rib is "
                 f"{float(np.diff(faces).max()) * 1e3:.3g} mm wide; measure with pins closer together"
             )
         blocks = cls(sensor, which, tuple(names), np.zeros(0))

@@ -33,7 +33,7 @@ def with_fitted_road(table: Mapping[str, object], folder: Path) -> _Tables:
     source = pavement[FROM]
     stray = next((key for key in pavement if key in ("layers", "structure", "rigid_base", "temperature")), None)
     if stray is not None:
-        raise InputError(f"pavement.from stands in place of pavement.{stray}; leave one of them out")
+        raise InputError(f"pavement.from replaces pavement.{stray}; leave one of them out")
     if not isinstance(source, str) or "#" not in source:
         raise InputError(f'pavement.from must be a file and a station, "moduli.nc#km 1.2", got {source!r}')
     file, _, station = source.rpartition("#")

@@ -87,9 +87,7 @@ class TirePart(Table):
         if self.belt is not None and self.material is not None:
             raise ValueError("give either material, of a half-space, or belt; the tread's material is tread in belt")
         if self.tread == "ribs" and self.belt is None:
-            raise ValueError(
-                'tread = "ribs" stands on a belt; give belt = "315/80R22.5" or a table, or tread = "layer"'
-            )
+            raise ValueError('tread = "ribs" needs a belt; give belt = "315/80R22.5" or a table, or tread = "layer"')
         if self.undertread is not None and self.tread != "ribs":
             raise ValueError('undertread lies below the grooves of ribs; give tread = "ribs", or leave it out')
         if self.wear and self.profile is None:

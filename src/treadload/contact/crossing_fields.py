@@ -147,7 +147,7 @@ def caveats(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
     caveats = [
         "the road below an edge is taken for a half-space, or layers, that go on without end: its own free edge, and "
         "the stress that gathers there, is not in the pressures",
-        "the wheel crosses without inertia and its pressures stand upright: what a fast wheel adds, and what slopes "
+        "the wheel crosses without inertia and its pressures act upright: what a fast wheel adds, and what slopes "
         "push along travel, is not in them",
     ]
     finest = getattr(scene.relief, "finest", None)
@@ -164,7 +164,7 @@ def caveats(scene: Scene, hold: str, data: xr.Dataset) -> list[str]:
     apart = int(np.diff(scene.steps).max(initial=1))
     if apart > STRIDE:
         caveats.append(
-            f"positions stand up to {apart} cells apart: pressures hold at each of them, but works per place ripple "
+            f"positions are up to {apart} cells apart: pressures hold at each of them, but works per place ripple "
             f"between them; take positions {STRIDE} cells apart or less for work"
         )
     if scene.rolling.law.largest > 0 and abs(scene.influence.dundurs) > _ALIKE:

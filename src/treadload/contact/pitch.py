@@ -190,7 +190,7 @@ def solve_pitch(
     >>> tl.contact.solve_pitch(tire, road, wheel)
     Traceback (most recent call last):
         ...
-    treadload.errors.InputError: blocks stand on a belt: give belt, such as Belt.from_library("315/80R22.5")
+    treadload.errors.InputError: blocks need a belt: give belt, such as Belt.from_library("315/80R22.5")
     """
     began = time.perf_counter()
     keys: NumericsKeys = {"tolerance": _TOLERANCE, **numerics}

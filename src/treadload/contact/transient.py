@@ -255,7 +255,7 @@ def _checked_distances(distances: Sequence[float] | Array) -> Array:
     if short.size:
         raise InputError(
             f"a step of the distances is {short[0]:g} m, and below {_SHORTEST:g} m it is lost in round-off; a step "
-            "of 0 m shifts the wheel where it stands"
+            "of 0 m shifts the wheel where it is"
         )
     if (steps < 0).any():
         where = int(np.argmax(steps < 0))

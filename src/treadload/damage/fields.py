@@ -121,7 +121,7 @@ def tension_behind(response: Source) -> xr.Dataset:
     # Round-off of a free surface beside the pressure.
     loaded = stress[2] < -1e-6 * np.abs(stress[2]).max()
     if not loaded.any():
-        raise InputError("no pressure stands on the surface of this response; take x and y that meet the load")
+        raise InputError("no pressure acts on the surface of this response; take x and y that meet the load")
     rear = np.where(loaded.any(axis=1), np.argmax(loaded, axis=1), np.argmax(loaded.any(axis=0)))
     if not rear.all():
         raise InputError(f"the load reaches the first x of the response, {x[0]:g} m; let x reach behind it")

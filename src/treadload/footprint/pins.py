@@ -105,7 +105,7 @@ def read(
     y0, ny, dy, j = places(path, "y", read_of["y"], lines, face[1] if single else None)
     if dy < _OVERLAP * face[1]:
         raise InputError(
-            f"{path}: pins {face[1] * 1e3:.3g} mm wide stand {dy * 1e3:.3g} mm apart, so that they overlap; correct "
+            f"{path}: pins {face[1] * 1e3:.3g} mm wide are {dy * 1e3:.3g} mm apart, so that they overlap; correct "
             '"# pin:", or split passes that lay between each other into files'
         )
     fields = _fields(path, read_of, lines, (ny, nx), (j, i))

@@ -143,7 +143,7 @@ def _frames(path: Path, lines: Sequence[str], start: int) -> list[_Frame]:
             numbers = tuple(number for number, _ in rows)
             frames.append(_Frame(head[0], head[1], tuple(row for _, row in rows), numbers, head[2]))
         elif rows:
-            raise InputError(f"{path}, line {rows[0][0]}: values stand before the first line Frame; export it again")
+            raise InputError(f"{path}, line {rows[0][0]}: values come before the first line Frame; export it again")
         rows.clear()
 
     for number, line in enumerate(lines[start:], start=start + 1):

@@ -63,7 +63,7 @@ class Weather:
 
     def __post_init__(self) -> None:
         if not 0 < self.step <= _LONGEST:
-            raise InputError(f"rows of a climate must stand at most {_LONGEST:g} hours apart, got {self.step:g}")
+            raise InputError(f"rows of a climate must be at most {_LONGEST:g} hours apart, got {self.step:g}")
         for name in _COLUMNS:
             series = getattr(self, name)
             if series is not None:

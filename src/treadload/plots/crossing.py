@@ -91,7 +91,7 @@ def _off_the_road_before(data: xr.Dataset) -> Array:
     return np.asarray(borders[changes].reshape(-1, 2))
 
 
-@figure("Crossing", name="contacts", title="Contacts", caption="Each where it stands on the road.", wide=True)
+@figure("Crossing", name="contacts", title="Contacts", caption="Each at its place on the road.", wide=True)
 @styled
 def crossing_contacts(crossing: Source) -> Figure:
     """A strip of contacts from the first position to the last, kPa, each where it stands on the road.

@@ -19,7 +19,7 @@ from treadload.plots.kit.style import INK, headline, legend_below, measure, plai
 @figure(
     "Life", name="rut", title="Rut against years", wide=True, order=5,
     caption=lambda data: f"R{rut_in_words(data)[1:]}. Where it is deepest, with lateral wander; what was not read in "
-    "its source stands in the warnings.",
+    "its source is in the warnings.",
     when=lambda data: "rut_depth" in data,
 )  # fmt: skip
 @styled

@@ -72,12 +72,12 @@ def _drawn(data: xr.Dataset) -> str:
 
 @comparison(
     "Verdict", title="Fatigue line, all cases",
-    caption="Each case stands where its worst strain meets its line; below it, the load repetitions "
+    caption="Each case is marked where its worst strain meets its line; below it, the load repetitions "
     "that the line allows.",
 )  # fmt: skip
 @figure(
     "Verdict", title="Fatigue line", wide=True,
-    caption=lambda data: f"The case stands where {_drawn(data)} at its worst meets the line; below it, the load "
+    caption=lambda data: f"The case is marked where {_drawn(data)} at its worst meets the line; below it, the load "
     "repetitions allowed.",
 )  # fmt: skip
 @styled

@@ -120,7 +120,7 @@ def first_of_response(data: xr.Dataset) -> FirstPage | None:
     )
     note = (
         f"Largest of the depths solved, {depths}, at {how}. Extensions are read only where a principal stress is "
-        "tensile. No law ranks them: what is calibrated, and for what, stands in the last column."
+        "tensile. No law ranks them: what is calibrated, and for what, is in the last column."
     )
     heading = (
         "Predicted cracking by criterion" if any(opens for _, opens in rows_found) else "Largest values by criterion"

@@ -78,7 +78,7 @@ class FootprintStep(Source, name="footprint"):
     @classmethod
     def stray_text(cls, key: str) -> str:
         """Which keys belong to a tire."""
-        return f"a footprint stands in place of a tire; leave out {key}"
+        return f"a footprint replaces a tire; leave out {key}"
 
     @property
     def is_quick(self) -> bool:

@@ -26,7 +26,7 @@ class DentSource(Source):
     def stray_text(cls, key: str) -> str:
         """Which keys are not its own."""
         return (
-            f"[{cls.name}] stands in place of [rolling] and what follows, with cells and a tolerance of its own; "
+            f"[{cls.name}] replaces [rolling] and what follows, with cells and a tolerance of its own; "
             f"leave out {key}"
         )
 

@@ -73,7 +73,7 @@ class ResponseStep(Step, name="response"):
         if not self.wheels:
             raise ValueError("wheels needs at least one wheel, got none; leave it out for one at the origin")
         if len(set(self.wheels)) != len(self.wheels):
-            raise ValueError("two of the wheels stand at the same place; give each its own x and y")
+            raise ValueError("two of the wheels are at the same place; give each its own x and y")
         if self.speed is not None and self.speed < 0:
             raise ValueError(f"speed must be >= 0 m/s, got {self.speed:g}; a wheel rolls towards positive x")
         return self

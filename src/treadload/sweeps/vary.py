@@ -79,7 +79,7 @@ def _values(case: Case, name: str, text: str) -> list[object]:
     parts = parts[:-1] if spaced else parts
     if len(parts) != 3 or not all(parts):
         if "," in text or ";" in text:
-            raise InputError(f"{name}={text}: a list stands in brackets, as {name}=[0.3, 0.5]")
+            raise InputError(f"{name}={text}: write a list in brackets, as {name}=[0.3, 0.5]")
         if len(parts) == 1:
             return [read_value(text)]
         raise InputError(f"{name}={text}: a range is low:high:count, such as {EXAMPLES}")

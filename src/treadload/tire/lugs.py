@@ -45,7 +45,7 @@ def lugged_tread(tire: Tire, lateral: tuple[LateralGrooves, ...] = ()) -> Lugged
     and as `blocks_of` and `scanned_blocks`.
     """
     if tire.belt is None:
-        raise InputError('blocks stand on a belt: give belt, such as Belt.from_library("315/80R22.5")')
+        raise InputError('blocks need a belt: give belt, such as Belt.from_library("315/80R22.5")')
     surface = tire.surface
     if isinstance(surface, ProfileSurface):
         profile = surface.profile

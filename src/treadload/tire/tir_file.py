@@ -270,17 +270,18 @@ class _Draft:
             self.skipped = self.section in self.tables
             if self.skipped:
                 self.notes.append(
-                    f"[{self.section}] stands twice in {self.where}, again in line {number}; the first is taken"
+                    f"[{self.section}] is given twice in {self.where}, again in line {number}; the first is taken"
                 )
             self.sections.setdefault(self.section, {})
         elif not self.section:
-            raise InputError(f"{place}: {body[:40]!r} stands before the first section; give a .tir file")
+            raise InputError(f"{place}: {body[:40]!r} comes before the first section; give a .tir file")
         elif entry := _ENTRY.fullmatch(body):
             key, value = entry[1].upper(), entry[2].strip().strip("'\"").strip()
             entries = self.sections[self.section]
             if key in entries and entries[key][0] != value:
                 raise InputError(
-                    f"{place}: {key} = {value} stands in line {entries[key][1]} as {entries[key][0]}; remove either"
+                    f"{place}: {key} = {value} is already given in line {entries[key][1]} as {entries[key][0]}; "
+                    "remove either"
                 )
             entries.setdefault(key, (value, number))
         elif _NUMBERS.fullmatch(body):

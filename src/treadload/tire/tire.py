@@ -97,9 +97,7 @@ class Tire:
             raise InputError(f'tread must be "layer" or "ribs", got {self.tread!r}{remedy}')
         if self.tread == "ribs":
             if self.belt is None:
-                raise InputError(
-                    'tread = "ribs" stands on a belt: give belt, such as Belt.from_library("315/80R22.5")'
-                )
+                raise InputError('tread = "ribs" needs a belt: give belt, such as Belt.from_library("315/80R22.5")')
             object.__setattr__(self, "belt", self.belt.under_ribs())
             self._check_ribs()
         elif self.undertread is not None:

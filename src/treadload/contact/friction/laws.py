@@ -353,7 +353,7 @@ def check_base(what: str, base: object) -> None:
         return
     if isinstance(base, FrictionLaw):
         raise InputError(
-            f"{what} cannot stand on {type(base).__name__}: heat comes from the whole friction; "
+            f"{what} cannot have {type(base).__name__} as its base: heat comes from the whole friction; "
             f"put {what} inside it, as its base"
         )
     raise InputError(f"the base of {what} must be a friction law, got {base!r}")

@@ -111,7 +111,7 @@ def _table(file: TableFile) -> SectionTable:
     count = len(rows.names)
     twice = next((name for name in rows.names if rows.names.count(name) > 1), None)
     if twice is not None:
-        raise InputError(f"{file.sections}: section {twice!r} stands twice; keep one row for each construction")
+        raise InputError(f"{file.sections}: section {twice!r} is there twice; keep one row for each construction")
     surveys = None if file.surveys is None else _surveys(file, rows.names)
     if surveys is None and not (rows.has("entry") and rows.has("last")):
         raise InputError(

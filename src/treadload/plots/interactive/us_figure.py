@@ -17,6 +17,7 @@ from treadload.us_units import AxisUnit, axis_in_display_units, in_us_units, sen
 
 Part = dict[str, Any]
 Units = dict[str, AxisUnit]
+Numbers = Array | float | Sequence[float | None]
 
 _AXIS = re.compile(r"([xyz])axis(\d*)")
 # A number of a hover text with its unit: %{x:.1f} mm.
@@ -26,17 +27,18 @@ _PLACES, _RANGES = ("x", "x0", "x1"), ("y", "y0", "y1")
 _COLOURS = {"z": ("z", "zmin", "zmax", "zmid"), "customdata": ("customdata", "surfacecolor", "cmin", "cmax")}
 
 
-def in_display_units(traces: Sequence[Part], layout: Mapping[str, Any]) -> tuple[list[Part], Part]:
+def in_display_units(traces: Sequence[Part], layout: Mapping[str, object]) -> tuple[list[Part], Part]:
     """Traces and layout of plotly in the units of display; in SI they stay as they are."""
     if not in_us_units():
         return list(traces), dict(layout)
     units: Units = {}
-    changed = {key: _axes(key, value, "", units, traces) for key, value in layout.items()}
+    page = dict(layout)
+    changed: Part = {key: _axes(key, value, "", units, traces) for key, value in page.items()}
     shown = [_trace(trace, units) for trace in traces]
-    changed["shapes"] = [_placed(shape, units, "xref", "yref") for shape in layout.get("shapes", ())]
-    changed["annotations"] = _notes(layout.get("annotations", ()), units)
+    changed["shapes"] = [_placed(shape, units, "xref", "yref") for shape in _parts(page, "shapes")]
+    changed["annotations"] = _notes(_parts(page, "annotations"), units)
     if "sliders" in layout:
-        changed["sliders"] = [_slider(slider, units) for slider in layout["sliders"]]
+        changed["sliders"] = [_slider(slider, units) for slider in _parts(page, "sliders")]
     return shown, {key: value for key, value in changed.items() if key in layout}
 
 
@@ -52,15 +54,15 @@ def values_in_display_units(values: Array, unit: str) -> Array:
     return values if shown is None else np.asarray(shown.number(values))  # type: ignore[arg-type]
 
 
-def _axes(key: str, value: Any, scene: str, units: Units, traces: Sequence[Part]) -> Any:
+def _axes(key: str, value: object, scene: str, units: Units, traces: Sequence[Part]) -> object:
     """A part of a layout, its axes in the units of display; their units by "x2" or "scene.x" are added."""
-    if key == "scene":
-        return {name: _axes(name, part, "scene.", units, traces) for name, part in value.items()}
     if key == "title":
-        return _titled(value)
+        return {**_as_part(value), "text": sentence_in_display_units(_text_of(value))}
     match = _AXIS.fullmatch(key)
-    if match is None:
+    if not isinstance(value, dict) or (match is None and key != "scene"):
         return value
+    if match is None:
+        return {name: _axes(name, part, "scene.", units, traces) for name, part in value.items()}
     name = f"{match[1]}{match[2]}"
     along = [trace.get(match[1], ()) for trace in traces if trace.get(f"{match[1]}axis", match[1]) == name]
     label, unit = axis_in_display_units(_text_of(value.get("title")), _largest(along))
@@ -151,29 +153,30 @@ def _log(unit: AxisUnit) -> Callable[[float], float]:
     return lambda value: float(np.log10(unit.number(10.0**value)))
 
 
-def _numbers(values: Any, unit: AxisUnit) -> Any:
+def _numbers(values: Numbers, unit: AxisUnit) -> Numbers:
     if isinstance(values, list | tuple):
         return [value if value is None else unit.number(value) for value in values]
-    return unit.number(values)
+    # Arrays as well as numbers.
+    return unit.number(values)  # type: ignore[arg-type]
 
 
-def _words(text: Any) -> Any:
+def _words(text: str | Sequence[str]) -> str | list[str]:
     return sentence_in_display_units(text) if isinstance(text, str) else [sentence_in_display_units(t) for t in text]
 
 
-def _text_of(title: Any) -> str:
+def _parts(layout: Part, key: str) -> list[Part]:
+    return list(layout.get(key, ()))
+
+
+def _text_of(title: object) -> str:
     return str(_as_part(title).get("text", ""))
 
 
-def _as_part(title: Any) -> Part:
-    return {"text": title} if isinstance(title, str) else dict(title or {})
+def _as_part(title: object) -> Part:
+    return dict(title) if isinstance(title, dict) else {"text": title or ""}
 
 
-def _titled(title: Any) -> Part:
-    return {**_as_part(title), "text": sentence_in_display_units(_text_of(title))}
-
-
-def _largest(arrays: Sequence[Any]) -> float:
+def _largest(arrays: Sequence[Numbers]) -> float:
     """The largest number of some arrays, in size; 0 of none."""
     sizes = []
     for values in map(np.asarray, arrays):

@@ -58,7 +58,7 @@ def _against_inputs(data: xr.Dataset) -> Iterator[Drawing]:
         yield Drawing(
             {"of": names, "against": name},
             f"Against {shown(view.data[name], name).words}",
-            f"{lines}; crosses stand where cases failed.",
+            f"{lines}; crosses mark cases that failed.",
         )
 
 

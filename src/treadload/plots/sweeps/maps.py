@@ -51,7 +51,7 @@ def _fields(data: xr.Dataset) -> Iterator[Drawing]:
 
 @figure(
     "Sweep", name="map", title="Over two inputs", order=2,
-    caption="Over the two inputs of most values; what is varied besides stands in its middle.",
+    caption="Over the two inputs of most values; what is varied besides is at its middle value.",
     when=_main_maps,
 )  # fmt: skip
 @styled

@@ -170,7 +170,7 @@ def compute_heterogeneous(
     if radii.size and min(block.window.length, block.window.width) < 3 * 2 * radii.max():
         warnings.append(
             f"the window of {block.window} is less than three diameters of the largest stone wide, "
-            f"{2e3 * radii.max():g} mm: what is read in it depends on where single stones stand; enlarge it, or take "
+            f"{2e3 * radii.max():g} mm: what is read in it depends on where single stones lie; enlarge it, or take "
             "several seeds"
         )
     stats = {
@@ -260,7 +260,7 @@ def _block(
     else:
         if window is None or depth is None or spacing is None:
             raise InputError(
-                "stones need a window to stand in: give window=(length, width), depth and spacing, m, for instance "
+                "stones need a window to lie in: give window=(length, width), depth and spacing, m, for instance "
                 "window=(36e-3, 36e-3), depth=16e-3, spacing=1e-3"
             )
         if not isinstance(window, tuple | list) or len(window) != 2:

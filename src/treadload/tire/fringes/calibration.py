@@ -178,9 +178,7 @@ class CameraProjector:
         both = [np.asarray(matrix) for matrix in (self.camera, self.projector)]
         lenses = [np.linalg.solve(matrix[:, :3], -matrix[:, 3]) for matrix in both]
         if np.linalg.norm(lenses[0] - lenses[1]) < _GRAZING * max(map(np.linalg.norm, lenses)):
-            raise InputError(
-                "camera and projector stand in one place: their lenses must lie apart for heights to show"
-            )
+            raise InputError("camera and projector are in one place: their lenses must lie apart for heights to show")
         positive("width of the projector", self.width, "pixels")
         positive("unit", self.unit, "metres", 'such as "1 mm" for a frame in millimetres')
         if self.across not in ("u", "v"):

@@ -32,7 +32,7 @@ def mesh_of_points(points: Array, name: str) -> tuple[Array, NDArray[np.int64]]:
     points = points[_single(points)]
     if len(points) < NEIGHBOURS**2:
         raise GeometryError(
-            f"the {count} points of {name!r} stand at {len(points)} places, too few for a surface; is it the right "
+            f"the {count} points of {name!r} are at {len(points)} places, too few for a surface; is it the right "
             "file?"
         )
     sample = points[:: max(1, len(points) // SAMPLES)]

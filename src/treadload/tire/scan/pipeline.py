@@ -71,7 +71,7 @@ def _without_clutter(mesh: Mesh, name: str) -> Iterator[tuple[Mesh, list[str]]]:
     rest = without_ground(mesh)
     if rest is not None:
         dropped = len(mesh.faces) - len(rest.faces)
-        notes = [f"a flat floor of {dropped} triangles was removed; the tread that stood on it may be flattened"]
+        notes = [f"a flat floor of {dropped} triangles was removed; the tread on it may be flattened"]
         yield rest, notes
     rest = mesh if rest is None else rest
     main, number = largest_piece(rest, name)
