@@ -24,12 +24,12 @@ def test_number_without_a_variable_needs_a_display():
     assert row("law", "Coulomb, 0.7", label="friction").text == "Coulomb, 0.7"
 
 
-@pytest.mark.parametrize("name", sorted(VARIABLES))
-def test_each_variable_can_be_shown(name):
-    shown = display_of(name)
-    assert shown.label
-    assert shown.unit in SCALES
-    assert Row(name, shown.label, 1.0, shown.unit, shown.form).text
+def test_each_variable_can_be_shown():
+    for name in VARIABLES:
+        shown = display_of(name)
+        assert shown.label, name
+        assert shown.unit in SCALES, name
+        assert Row(name, shown.label, 1.0, shown.unit, shown.form).text, name
 
 
 def test_groups_with_the_same_rows_become_a_table():

@@ -184,10 +184,16 @@ def test_a_case_whose_fields_are_damaged_or_lost_is_solved_again_and_named(solve
 
 
 @pytest.mark.parametrize(
-    "how", ["flipped .zarray", "flipped chunk", "deleted chunk", "flipped .zmetadata", "no mark"]
-)
-@pytest.mark.parametrize("name", ["worst_strain", "stress_zz"])
-def test_damaged_arrays_are_never_read_and_made_again(solved, tmp_path, how, name):
+    ("name", "how"),
+    [
+        *((name, how) for name in ("worst_strain", "stress_zz")
+          for how in ("flipped .zarray", "flipped chunk", "deleted chunk")),
+        # Of all arrays.
+        ("stress_zz", "flipped .zmetadata"),
+        ("stress_zz", "no mark"),
+    ],
+)  # fmt: skip
+def test_damaged_arrays_are_never_read_and_made_again(solved, tmp_path, name, how):
     case, path, memory = solved
     path = copied(path, tmp_path)
     chunk = next(file for file in sorted((path / name).iterdir()) if file.name[0].isdigit())
