@@ -67,6 +67,11 @@ class PitchPassage(BaseResult, group="pitch"):
     dataset: numbers over (position,), the place of the axle within the pitch, and pressure, traction_x, traction_y
     and state over (position, y, x) in the frame of the road, on which the blocks stand where they stick; attributes
     pitch, m, and change, the largest difference from the pitch before. stats: iterations, seconds.
+
+    >>> passage = tl.open_results("pitch.nc").pitch  # of tl.contact.solve_pitch, which takes 10 s
+    >>> loads = passage.dataset.normal_load.values
+    >>> f"{loads.mean():.0f} N at every one of {len(loads)} positions"
+    '500 N at every one of 4 positions'
     """
 
     title: ClassVar[str] = "Passage of one pitch"

@@ -106,6 +106,13 @@ def moduli_along(backcalculation: Source, *, load: float | None = None) -> Figur
 
     backcalculation: a Backcalculation or its dataset. load: N, of which drops within 12 % are drawn; left out, all
     of them, coloured by load. Returns the figure. Raises InputError if variables are missing and without any drop.
+
+    >>> asphalt = tl.Layer(tl.Elastic(5e9, 0.35), 0.15, name="asphalt")
+    >>> road = tl.Pavement([asphalt, tl.Layer(tl.Elastic(80e6, 0.4), name="soil")])
+    >>> drop = tl.roads.Basins([[587e-6, 453e-6, 306e-6, 148e-6, 92e-6]], [0, 0.3, 0.6, 1.2, 1.8], [49.5e3], 0.15)
+    >>> result = tl.backcalculate(drop, road, stiff_layer=None)
+    >>> [ax.get_ylabel().split()[0] for ax in tl.plots.moduli_along(result).axes]
+    ['asphalt', 'soil']
     """
     data = fields_of(backcalculation, "fitted_modulus", "modulus_low", "modulus_high", "basin_status", "plate_load")
     chosen = data["basin_status"].to_numpy() != _REFUSED

@@ -29,6 +29,13 @@ def calibration_fit(calibration: Source) -> Figure:
 
     calibration: a Calibration or its dataset; without deflections the residuals stand alone. Returns the figure.
     Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> loads = {100.0: 0.74e-3, 200.0: 1.18e-3}  # N: m
+    >>> measured = [tl.footprint.Measured(load=load, deflection=depth) for load, depth in loads.items()]
+    >>> calibration = tl.calibrate(tire, ["modulus"], measured, spacing=0.006)
+    >>> [ax.get_title(loc="left") for ax in tl.plots.calibration_fit(calibration).axes]
+    ['Load and deflection', 'Residuals']
     """
     data = fields_of(calibration, *_NEEDED)
     deflections = data.isel(reading=np.flatnonzero(data["kind"].to_numpy() == "deflection"))
@@ -105,6 +112,13 @@ def calibration_numbers(calibration: Source) -> Figure:
     """How sure the fitted numbers are, and which of them go together.
 
     calibration: a Calibration or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> tire = tl.Tire.from_profile(tl.tire.TreadProfile(0.3, 0.3, 0.06), material=tl.Elastic(5e6, 0.5))
+    >>> loads = {100.0: 0.74e-3, 200.0: 1.18e-3}  # N: m
+    >>> measured = [tl.footprint.Measured(load=load, deflection=depth) for load, depth in loads.items()]
+    >>> calibration = tl.calibrate(tire, ["modulus"], measured, spacing=0.006)
+    >>> [ax.get_title(loc="left") for ax in tl.plots.calibration_numbers(calibration).axes[:2]]
+    ['How sure the numbers are', 'Correlation']
     """
     data = fields_of(calibration, "fitted_value", "standard_deviation", "number_correlation", "start_value")
     names = [str(name).replace("_", " ") for name in data["unknown"].to_numpy()]

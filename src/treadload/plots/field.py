@@ -34,6 +34,10 @@ def field_shares(bench: Source, *, ax: Axes | None = None) -> Figure:
     """Share of roads that have cracked against age: all roads built, the plain fit, and what surveys saw.
 
     bench: a FieldBench or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> bench = tl.open_results("field_bench.nc").field_bench  # of tl.life.field_bench("LTPP"), which takes 10 s
+    >>> tl.plots.field_shares(bench).axes[0].get_xlabel()
+    'age (years)'
     """
     data = fields_of(bench, "cracked_share", "seen_share", "cell_sections", "cell_age")
     figure, ax = figure_and_axes(ax, 7.6, 4.4)
@@ -81,6 +85,10 @@ def field_survivors(bench: Source, *, ax: Axes | None = None) -> Figure:
     """Share cracked at the first survey against the age there: seen, by the fit with overlays, by the plain fit.
 
     bench: a FieldBench or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> bench = tl.open_results("field_bench.nc").field_bench  # of tl.life.field_bench("LTPP"), which takes 10 s
+    >>> tl.plots.field_survivors(bench).axes[0].get_xlabel()
+    'age at the first survey (years)'
     """
     data = fields_of(bench, "entry_age", "entry_seen", "entry_predicted", "entry_plain")
     figure, ax = figure_and_axes(ax, 7.6, 4.2)
@@ -120,6 +128,14 @@ def field_power(bench: Source, *, ax: Axes | None = None) -> Figure:
     """Profile of the power with which predicted ages enter, and its 95 % interval.
 
     bench: a FieldBench or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> powers = np.linspace(0.0, 1.0, 11)
+    >>> profile = xr.Dataset({"power_profile": ("power", -20 * (powers - 0.4) ** 2)}, {"power": powers})
+    >>> profile.attrs.update(power=0.4, power_low=0.1, power_high=0.7)
+    >>> tl.plots.field_power(profile).axes[0].get_xlabel()
+    'power of the mechanics, g'
     """
     data = fields_of(bench, "power_profile")
     figure, ax = figure_and_axes(ax, 6.2, 3.8)
@@ -158,6 +174,10 @@ def field_transform(bench: Source, *, ax: Axes | None = None) -> Figure:
     """Probability transform of every section's interval, by fits that have not seen it, and the middle 90 %.
 
     bench: a FieldBench or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> bench = tl.open_results("field_bench.nc").field_bench  # of tl.life.field_bench("LTPP"), which takes 10 s
+    >>> tl.plots.field_transform(bench).axes[0].get_xlabel()
+    'predicted share of roads cracked by then (%)'
     """
     data = fields_of(bench, "transform_low", "transform_high")
     figure, ax = figure_and_axes(ax, 6.2, 4.6)

@@ -23,6 +23,14 @@ def fringe_scan(pixels: Source) -> Figure:
 
     pixels: `FringeScan.pixels`, with fringe_modulation, fringe_phase, fringe_height and fringe_deviation over (row,
     column). Returns the figure.
+
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> names = ("fringe_modulation", "fringe_phase", "fringe_height", "fringe_deviation")
+    >>> pixels = xr.Dataset({name: (("row", "column"), np.full((4, 6), 1e-3)) for name in names})
+    >>> pixels = pixels.assign_coords(row=range(4), column=range(6))
+    >>> [ax.get_title(loc="left") for ax in tl.plots.fringe_scan(pixels).axes[:4]]
+    ['Modulation', 'Phase, unwrapped', 'Height', 'Deviation by noise']
     """
     names = ("fringe_modulation", "fringe_phase", "fringe_height", "fringe_deviation")
     data = fields_of(pixels, *names)

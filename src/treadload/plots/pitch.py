@@ -24,6 +24,10 @@ def pitch_history(passage: Source) -> Figure:
     """Peak pressure and shear, contact area, forces or creepages, over the place of the axle.
 
     passage: a PitchPassage or its dataset. Returns the figure.
+
+    >>> passage = tl.open_results("pitch.nc").pitch  # of tl.contact.solve_pitch, which takes 10 s
+    >>> [ax.get_ylabel() for ax in tl.plots.pitch_history(passage).axes]
+    ['largest of a cell (kPa)', 'contact area (cm²)', 'creepage (%)']
     """
     names = ("largest_pressure", "largest_traction", "contact_area", "tractive_force", "lateral_force")
     data = fields_of(passage, *names, "creepage_x", "creepage_y", "position")
@@ -69,6 +73,10 @@ def pitch_maps(passage: Source, *, position: int | None = None) -> Figure:
 
     passage: a PitchPassage or its dataset. position: number; left out, that with the largest shear of a cell.
     Returns the figure.
+
+    >>> passage = tl.open_results("pitch.nc").pitch  # of tl.contact.solve_pitch, which takes 10 s
+    >>> tl.plots.pitch_maps(passage).axes[0].get_title(loc="left")
+    'Axle at 60.0 mm'
     """
     data = fields_of(passage, "pressure", "traction_x", "traction_y", "largest_traction", "position", "x", "y")
     number = int(data["largest_traction"].to_numpy().argmax()) if position is None else position
@@ -116,6 +124,12 @@ def pitch_strains(response: Source) -> Figure:
     """Largest tensile strain in the horizontal plane over the place of the axle, a curve a depth, microstrain.
 
     response: a PitchResponse or its dataset. Returns the figure.
+
+    >>> import xarray as xr
+    >>> strains = {"largest_in_plane_extension": (("depth", "position"), [[60e-6, 80e-6, 70e-6, 60e-6]])}
+    >>> response = xr.Dataset(strains, {"depth": [0.02], "position": [0.0, 0.015, 0.03, 0.045]})
+    >>> f"{tl.plots.pitch_strains(response).axes[0].lines[0].get_ydata().max():.0f} microstrain"
+    '80 microstrain'
     """
     data = fields_of(response, "largest_in_plane_extension", "position", "depth")
     at = data["position"].to_numpy() * MM

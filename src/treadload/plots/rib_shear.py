@@ -34,6 +34,13 @@ def rib_shear(comparison: Source) -> Figure:
     """Lateral and longitudinal shear of the thirds of each rib over the rib's pressure, computed and measured.
 
     comparison: a FootprintComparison or its dataset. Returns the figure. Raises InputError if variables are missing.
+
+    >>> pressure = [[0] * 4 + [6e5] * 8 + [0] * 4] * 16
+    >>> shear = [[0] * 4 + [6e4] * 8 + [0] * 4] * 16
+    >>> load = tl.response.GridLoad.from_arrays(pressure, shear, shear, spacing=0.01)
+    >>> comparison = tl.compare(load, tl.Footprint(load), registration="none")
+    >>> [ax.get_title(loc="left") for ax in tl.plots.rib_shear(comparison).axes]
+    ['Lateral shear', 'Longitudinal shear']
     """
     data = fields_of(comparison, *_NEEDED)
     figure = new_figure(9.4, 5.6)

@@ -26,6 +26,16 @@ def tread_wear(wear: Source) -> Figure:
 
     wear: with tread_wear (across, wheel_angle), its median, and tread_height and earlier_tread_height (across), m.
     Returns the figure.
+
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> across, angle = np.linspace(-0.1, 0.1, 5), np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
+    >>> fields = {"tread_wear": (("across", "wheel_angle"), np.full((5, 8), 2e-3))}
+    >>> heights = {"median_tread_wear": 2e-3, "tread_height": -2e-3, "earlier_tread_height": 0.0}
+    >>> fields |= {name: ("across", np.full(5, height)) for name, height in heights.items()}
+    >>> wear = xr.Dataset(fields, {"across": across, "wheel_angle": angle})
+    >>> [ax.get_xlabel() for ax in tl.plots.tread_wear(wear).axes[:2]]
+    ['angle from the road (degrees)', 'y (mm)']
     """
     names = ("tread_wear", "median_tread_wear", "tread_height", "earlier_tread_height")
     data = fields_of(wear, *names)

@@ -194,6 +194,15 @@ def read_history(
 
     offsets: of the sensors, m. plate_radius: m. units: column → unit, of those that name none in brackets. time,
     force, deflections: columns; deflections left out are D1, D2 and so on. Raises InputError.
+
+    >>> from pathlib import Path
+    >>> times = [2 * k for k in range(25)]  # ms
+    >>> forces = [max(0.0, 50 * 4 * t / 30 * (1 - t / 30)) for t in times]  # kN
+    >>> rows = [f"{t};{force};{8 * force}" for t, force in zip(times, forces, strict=True)]
+    >>> _ = Path("drop.txt").write_text("Time [ms];Force [kN];D1 [um]" + "".join(chr(10) + row for row in rows))
+    >>> drop = tl.roads.read_history("drop.txt", offsets=[0.0], plate_radius=0.15, units={})
+    >>> f"{drop.peaks.load[0] / 1e3:.0f} kN, {drop.peaks.deflection[0, 0] * 1e6:.0f} µm"
+    '50 kN, 398 µm'
     """
     table = read_table(path)
     if not table.has_header or len(table.rows) < 2:

@@ -45,6 +45,14 @@ class AggregatesStep(Step, name="aggregates"):
     where. spacing: of its cells. seed, gap, cover: of the drawing, see `Aggregates.random`. bond_strength: tension
     that the bond of mortar on stone withstands. borders: "steps" of whole cells, or "shares" of cut ones. See
     `treadload.response.compute_heterogeneous`.
+
+    >>> wheel = {"tire": {"profile": "315/80R22.5"}, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> window = {"x": "0 mm", "y": "0 mm", "length": "40 mm", "width": "40 mm", "depth": "20 mm"}
+    >>> stones = {"material": {"kind": "elastic", "modulus": "60 GPa", "poisson": 0.2}, "radii": ["4 mm"]}
+    >>> case = tl.Case.from_dict(wheel | road | {"aggregates": stones | {"fraction": 0.3, "window": window}})
+    >>> [step.name for step in case.steps if isinstance(step, tl.steps.AggregatesStep)]
+    ['aggregates']
     """
 
     makes: ClassVar = ("heterogeneous",)

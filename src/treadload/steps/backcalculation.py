@@ -67,6 +67,13 @@ class StructureFile(FilePart):
 
     basins: of falling weights. moving_basins: of slopes ahead of rolling wheels, which it states; the one or the
     other.
+
+    >>> file = tl.steps.StructureFile.from_text('''
+    ... pavement = { structure = "6 BBSG3 / 15 GB3 / PF3" }
+    ... basins = { plate_radius = "150 mm" }
+    ... ''')
+    >>> [layer.name for layer in file.structure.layers]
+    ['EB-BBSG3', 'EB-GB3', 'PF3']
     """
 
     pavement: RoadPart

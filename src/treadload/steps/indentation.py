@@ -56,6 +56,18 @@ class IndentationStep(DentSource, name="indentation"):
     loads: one a step, in their order; 0 lifts the body off. spacing: of the cells, 3 mm or those of a height map if
     left out. depth: of what may yield; left out, 2.2 times the radius of the elastic contact. layers: rows of cells
     in it. tolerance: of the plastic strain of a step, relative. It stands in place of `[rolling]`.
+
+    >>> case = tl.Case.from_text('''
+    ... indentation = { loads = ["640 N", "0 N"] }
+    ... [tire]
+    ... profile = { rolling_radius = "1 m", crown_radius = "1 m", width = "60 mm" }
+    ... material = { modulus = "210 GPa", poisson = 0.3 }
+    ... [[pavement.layers]]
+    ... material = { modulus = "100 MPa", poisson = 0.35 }
+    ... plasticity = { kind = "von-mises", yield_stress = "0.4 MPa", hardening = "20 MPa" }
+    ... ''')
+    >>> [step.name for step in case.steps]
+    ['indentation']
     """
 
     loads: tuple[Force, ...]
@@ -105,6 +117,18 @@ class DrumStep(DentSource, name="drum"):
     out, a twelfth of the elastic contact's length and a 28th of the drum's width. depth: of what may yield; left out,
     it grows until it holds it. layers: rows of cells in it. tolerance: of the plastic strain of a pass, relative. It
     replaces `[rolling]`.
+
+    >>> case = tl.Case.from_text('''
+    ... drum = { load = "640 N", passes = 4 }
+    ... [tire]
+    ... profile = { rolling_radius = "1 m", crown_radius = "1 m", width = "60 mm" }
+    ... material = { modulus = "210 GPa", poisson = 0.3 }
+    ... [[pavement.layers]]
+    ... material = { modulus = "100 MPa", poisson = 0.35 }
+    ... plasticity = { kind = "von-mises", yield_stress = "0.4 MPa", hardening = "20 MPa" }
+    ... ''')
+    >>> [step.name for step in case.steps]
+    ['drum']
     """
 
     makes: ClassVar = ("passes",)

@@ -34,6 +34,13 @@ class PitchStep(Step, name="pitch"):
     profile. positions: of the wheel in a pitch. spacing: of the cells; left out, that of the case. tolerance: of the
     conditions of a step. periodic: what may still change from a pitch to the next, relative. depths: at which the
     road's strains are read at every position, for their mean and their worst over the pitch; left out, none are.
+
+    >>> tire = {"profile": "315/80R22.5", "belt": "315/80R22.5", "inflation_pressure": "8 bar"}
+    >>> wheel = {"tire": tire, "rolling": {"normal_load": "32.5 kN", "friction": 0.7}}
+    >>> road = {"pavement": {"structure": "6 BBSG3 / 15 GB3 / PF3", "temperature": 15}}
+    >>> lugs = {"lateral": [{"pitch": "70 mm", "width": "8 mm", "depth": "12 mm"}]}
+    >>> [step.name for step in tl.Case.from_dict(wheel | road | {"pitch": lugs}).steps]
+    ['contact', 'response', 'slices', 'bowl', 'pitch']
     """
 
     makes: ClassVar = ("pitch", "pitch_response")

@@ -88,10 +88,12 @@ class MagicFormula(Described):
 
     version: "5.2" or "6.1". signs: of the coefficients, "ISO", "SAE" or "adapted SAE"; `forces` takes and returns
     numbers in the signs of treadload whatever they are. sections: numbers by section and key of the file, in SI.
-    side: of the vehicle where it was measured, "left", "right" or "" if unknown. name: free text.
-    deflection: vertical deflection and load, m and N, (2, n); None without a table. notes: remarks of the reader.
-    is_mirrored: True for the same tire on the opposite side of the vehicle.
-    Source: Pacejka (2012), Tire and Vehicle Dynamics, section 4.3; see `treadload.kernels.magic_formula`.
+    side: of the vehicle where it was measured, "left", "right" or "" if unknown. name: free text. deflection:
+    vertical and load, m and N, (2, n); None without a table. notes: of the reader. is_mirrored: True for the same
+    tire on the opposite side. Source: Pacejka (2012), Tire and Vehicle Dynamics, 4.3; see `kernels.magic_formula`.
+
+    >>> tl.tire.MagicFormula.from_file("invented_6_1.tir").signs
+    'ISO'
     """
 
     title: ClassVar[str] = "Magic Formula"

@@ -21,6 +21,7 @@ from treadload.materials import Anisotropic, Elastic, Prony
 from treadload.materials.kinds import Surfaced
 from treadload.tables import real_array
 from treadload.tire.belt import Belt, InflatedBelt
+from treadload.tire.cells import cell_of
 from treadload.tire.cross_section import TreadSection, lateral_obstacle
 from treadload.tire.keywords import BLOCKS_ROLL, BodyKeys, ScanKeys, TireMaterial, Tread
 from treadload.tire.library import tread_named
@@ -61,6 +62,10 @@ class Tire:
     grooves. undertread: of ribs, rubber between the floor of the deepest groove and the belt, m; left out, what the
     tread_thickness of the belt leaves below the grooves of a profile, and 5 mm below those of a scan or a height map.
     Build it with from_height_map, from_profile or from_scan. Tires with equal contents are equal.
+
+    >>> tire = tl.Tire.from_profile("315/80R22.5", inflation_pressure=820e3)
+    >>> f"{tire.outer_radius * 1e3:.0f} mm", len(tire.surface.profile.grooves)  # unloaded radius, grooves
+    ('538 mm', 4)
     """
 
     surface: Surface
@@ -141,7 +146,7 @@ class Tire:
         values, a wrong shape, a missing spacing or unit, a cell of a text that is neither a number nor empty, NaN,
         NA, N/A, NoData or null; GeometryError for NaN only.
         """
-        cell = _cell(spacing)
+        cell = cell_of(spacing)
         if isinstance(gap, str | PathLike):
             surface = read_height_map(Path(gap), cell, units, decimal)
             named: BodyKeys = {**body, "name": body.get("name") or Path(gap).name}
@@ -384,16 +389,3 @@ class Tire:
 @lru_cache(maxsize=32)
 def _is_symmetric(tire: Tire) -> bool:
     return is_mirrored(tire.surface)
-
-
-def _cell(spacing: float | Sequence[float] | None) -> tuple[float, float] | None:
-    """(dx, dy) in m of a spacing given once or twice."""
-    if spacing is None:
-        return None
-    try:
-        values = tuple(float(value) for value in np.atleast_1d(np.asarray(spacing, dtype=np.float64)))
-    except (TypeError, ValueError):
-        values = ()
-    if len(values) not in (1, 2) or not all(math.isfinite(v) and v > 0 for v in values):
-        raise InputError(f"spacing must be a positive number of m, or (dx, dy), got {spacing!r}")
-    return values[0], values[-1]

@@ -23,6 +23,16 @@ class Wear(BaseResult, group="wear"):
     both scans over the crown of the later one, m, the earlier as it was shifted; groove_depth and
     earlier_groove_depth over groove, those in both. Attributes: datum, by which the radii of the earlier scan were
     lowered so that the floors of the grooves, which do not wear, agree; shift, of the earlier scan across, m.
+
+    >>> import numpy as np
+    >>> import xarray as xr
+    >>> across, angle = np.linspace(-0.1, 0.1, 5), np.linspace(0.0, 2 * np.pi, 8, endpoint=False)
+    >>> fields = {"tread_wear": (("across", "wheel_angle"), np.full((5, 8), 2e-3))}
+    >>> heights = {"median_tread_wear": 2e-3, "tread_height": -2e-3, "earlier_tread_height": 0.0}
+    >>> fields |= {name: ("across", np.full(5, height)) for name, height in heights.items()}
+    >>> wear = tl.tire.Wear(xr.Dataset(fields, {"across": across, "wheel_angle": angle}))
+    >>> f"{wear.dataset.median_tread_wear.mean().item() * 1e3:.0f} mm worn off"
+    '2 mm worn off'
     """
 
     title: ClassVar[str] = "Tread wear"

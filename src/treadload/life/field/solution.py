@@ -95,6 +95,11 @@ class FieldBench(BaseResult, group="field_bench"):
     entry_level (entry); transform_low, transform_high (section); with mechanics power_profile (power),
     predicted_surface, predicted_bottom (section), and variant_profile (variant). stats: fits and processor time, s.
     warnings: sentences for the user.
+
+    >>> bench = tl.open_results("field_bench.nc").field_bench  # of tl.life.field_bench("LTPP"), which takes 10 s
+    >>> level = bench.dataset.crack_level.sel(event="wheel-path", likelihood="overlay-lag").item()
+    >>> f"median age of the first crack: {level:.1f} years"
+    'median age of the first crack: 5.2 years'
     """
 
     title: ClassVar[str] = "What roads show"

@@ -24,6 +24,14 @@ class Tornado(Screening, group="tornado"):
     """A result at both ends of the range of every input, one at a time; the largest swing first.
 
     dataset: over `input`: ends and base of the inputs, the reading at them, the swing; NaN where a case failed.
+
+    >>> tire = {"profile": {"rolling_radius": 0.3, "crown_radius": 0.3, "width": 0.06}, "inflation_pressure": "8 bar"}
+    >>> road = {"layers": [{"material": {"kind": "elastic", "modulus": "5 GPa", "poisson": 0.35}}]}
+    >>> wheel = {"normal_load": "100 N", "friction": 0.7}
+    >>> case = tl.Case.from_dict({"tire": tire, "pavement": road, "rolling": wheel, "spacing": "6 mm"})
+    >>> tornado = tl.sweeps.tornado(case, {"normal_load": ("50 N", "100 N")}, of="largest_pressure")
+    >>> f"{tornado.dataset.reading_low.item() / 1e3:.0f} kPa at the low end"
+    '116 kPa at the low end'
     """
 
     title: ClassVar[str] = "Tornado"
