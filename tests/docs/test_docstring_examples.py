@@ -153,6 +153,8 @@ def test_the_prepared_results_are_those_of_today():
         assert set(solved.dataset.data_vars) == set(kept.dataset.data_vars)
         for name, values in solved.dataset.data_vars.items():
             if values.dtype.kind == "f":
-                # Fits and iterations end within their tolerances, which another processor may reach elsewhere.
+                # Fits and iterations end within their tolerances, which another processor may reach elsewhere; forces
+                # that balance are round-off of the load of 500 N, of the order of 1e-14 N.
                 size = np.nanmax(np.abs(np.where(np.isfinite(values), values, 0.0)), initial=0.0)
-                np.testing.assert_allclose(values, kept.dataset[name], rtol=1e-3, atol=1e-3 * size, err_msg=name)
+                least = max(1e-3 * size, 1e-12)
+                np.testing.assert_allclose(values, kept.dataset[name], rtol=1e-3, atol=least, err_msg=name)
