@@ -1,11 +1,13 @@
 """Peaks between the points of a passage: steady ones, and those where tension ends and the reading with it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from treadload.life.peaks import peaks_and_valleys
+from treadload.life.peaks import Strips, over_strips, peaks_and_valleys
 
 STEP = 3e-3
 
@@ -84,3 +86,19 @@ def test_peaks_are_those_of_every_pair_of_points(seed, points, depths):
     # Of 2000 places between two points, by the slope there; four depths of random walks bend by 10 at most.
     assert found == pytest.approx(expected, abs=2e-2)
     assert found >= expected - 1e-12
+
+
+def test_strips_are_divided_where_readings_end_and_as_good_as_divided_everywhere():
+    """Tension of 4 mm across, which ends between rows of 1.5 mm, in readings that vary over 40 mm."""
+    rows, x = 1.5e-3 * np.arange(60), 3e-3 * np.arange(41)
+    far = np.hypot(x - 0.06, rows[:, None] - 0.0441)
+    uncut = np.exp(-((far / 0.04) ** 2))
+    margin = np.broadcast_to((2.0e-3 - np.abs(rows[:, None] - 0.0441)) * 1e6, uncut.shape)
+    strips = Strips.of(rows, rows, narrow=True)
+    divided = replace(strips.narrow, narrow=strips.narrow)
+    at = {"centres": np.array([0.06]), "turns": 1, "power": 5.0}
+    coarse, adapted, fine = (
+        over_strips(each, x, uncut, margin, **at)[0] for each in (replace(strips, narrow=None), strips, divided)
+    )
+    assert np.abs(adapted - fine).max() < 1e-4 * fine.max()
+    assert np.abs(coarse - fine).max() > 0.02 * fine.max()

@@ -7,22 +7,23 @@ there. What it would be beyond, and the tension itself, vary steadily, so that b
 from __future__ import annotations
 
 import itertools
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 import scipy
 
 from treadload.damage.quantity import cut
-from treadload.kernels.arrays import Array, IntArray
+from treadload.kernels.arrays import Array, BoolArray, IntArray
 
 # Beside points of this part of the largest reading of a line a larger one may lie.
 _RIVAL = 0.8
 # Lines in a strip of a passage, and the part of the largest reading below which they are not worth while: less than
 # a hundredth of its damage.
 _LINES, _FAINT = 4, 0.3
-# Lines in a strip where tension may be left in a few millimetres across travel: years within 0.1 % of 256 lines.
-_MANY_LINES = 64
+# Lines in a strip where readings end abruptly, if tension may be left in a few millimetres across travel, as lines
+# that differ by this part of the largest reading show: years within 0.1 % of 256 lines.
+_MANY_LINES, _ABRUPT = 64, 0.02
 # Columns whose reading is at least this part of a row's largest, and so many beside them, are looked at between rows.
 _NEAR_LARGEST, _BESIDE = 0.6, 4
 # Points that are looked at together.
@@ -36,7 +37,8 @@ class Strips:
     """Strips across travel, each of several lines, and what makes values on a line of those on rows.
 
     rows: (ny,), y: (strips,), m, rising; y evenly spaced, in the middle of their strips, which are as wide as they
-    are apart. at: the row before each y. columns, weights: (strips, lines, 4), see `onto_lines`.
+    are apart. at: the row before each y. columns, weights: (strips, lines, 4), see `onto_lines`. narrow: the same of
+    more lines, for strips in which readings end abruptly; None where a few are enough everywhere.
     """
 
     rows: Array
@@ -44,11 +46,16 @@ class Strips:
     at: Any
     columns: Any
     weights: Array
+    narrow: Strips | None = None
 
     @classmethod
     def of(cls, rows: Array, y: Array, *, narrow: bool = False) -> Strips:
         """Of rows and y, m; those at the borders end there. narrow: where tension is left in a few millimetres."""
-        count = _MANY_LINES if narrow else _LINES
+        strips = cls._of_lines(rows, y, _LINES)
+        return replace(strips, narrow=cls._of_lines(rows, y, _MANY_LINES)) if narrow else strips
+
+    @classmethod
+    def _of_lines(cls, rows: Array, y: Array, count: int) -> Strips:
         within = (y[1] - y[0]) * ((np.arange(count) + 0.5) / count - 0.5)
         lines = np.clip(y[:, None] + within, rows[0], rows[-1])
         columns, weights = onto_lines(rows, lines.ravel())
@@ -132,22 +139,36 @@ def over_strips(
             uncut[..., window].astype(np.float32),
             None if margin is None else margin[..., window].astype(np.float32),
         )
-        # So many at a time that what is made of them stays in the cache.
-        count = strips.columns.shape[1]
-        step = max(1, _BLOCK // (count * (window.stop - window.start)))
-        for start in range(0, len(wanted), step):
-            batch = wanted[start : start + step]
-            onto = strips.onto(batch)
-            extremes = peaks_and_valleys(
-                x[window],
-                _across(onto, inner),
-                None if tense is None else _across(onto, tense),
-                centres=centres[axle : axle + 1],
-                turns=1,
-                smooth=True,
-            )
-            lines = (extremes[0] / largest).reshape(len(batch), count)
-            result[2 * axle, batch] = largest * (lines**power).mean(axis=1) ** (1 / power)
+        field = x[window], inner, tense, centres[axle : axle + 1]
+        lines = _on_lines(strips, wanted, *field) / largest
+        result[2 * axle, wanted] = largest * (lines**power).mean(axis=1) ** (1 / power)
+        if strips.narrow is not None:
+            abrupt = wanted[_is_abrupt(lines)]
+            lines = _on_lines(strips.narrow, abrupt, *field) / largest
+            result[2 * axle, abrupt] = largest * (lines**power).mean(axis=1) ** (1 / power)
+    return result
+
+
+def _is_abrupt(lines: Array) -> BoolArray:
+    """In which strips readings (strips, lines), parts of the largest, end abruptly, or on their borders."""
+    steps = np.abs(np.diff(lines.ravel(), append=lines[-1, -1])).reshape(lines.shape) > _ABRUPT
+    before = np.concatenate([[False], steps[:-1, -1]])
+    return np.asarray(steps.any(axis=1) | before)
+
+
+def _on_lines(
+    strips: Strips, wanted: IntArray, x: Array, uncut: Array, margin: Array | None, centres: Array
+) -> Array:
+    """Largest readings (wanted, lines) on the lines of some strips; the others as of `peaks_and_valleys`."""
+    count = strips.columns.shape[1]
+    result = np.empty((len(wanted), count))
+    # So many at a time that what is made of them stays in the cache.
+    step = max(1, _BLOCK // (count * len(x)))
+    for start in range(0, len(wanted), step):
+        onto = strips.onto(wanted[start : start + step])
+        fields = _across(onto, uncut), None if margin is None else _across(onto, margin)
+        extremes = peaks_and_valleys(x, *fields, centres=centres, turns=1, smooth=True)
+        result[start : start + step] = extremes[0].reshape(-1, count)
     return result
 
 
