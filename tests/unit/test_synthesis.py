@@ -55,6 +55,15 @@ def test_cells_in_a_half_space_are_the_closed_form(parts):
     close(solved([cells(load)], ALONE), np.concatenate([stress, moved], axis=1), 2e-9)
 
 
+@pytest.mark.parametrize(("count_x", "count_y"), [(5, 4), (4, 5), (1, 3)])
+def test_points_on_both_sides_alike_have_the_values_of_any_points(count_x, count_y):
+    """They are added up on one side; one more point, which breaks the symmetry, is not folded."""
+    x, y = (0.04 * (np.arange(count) - 0.5 * (count - 1)) for count in (count_x, count_y))
+    folded = solved([cells()], LAYERS, x=x, y=y)
+    whole = solved([cells()], LAYERS, x=np.append(x, 0.17), y=np.append(y, 0.19))
+    close(folded, whole[..., :-1, :-1], 1e-13)
+
+
 def test_bilinear_loads_in_a_half_space_are_the_closed_form():
     load = Cells(LOAD, 0.03, 0.02, -0.06, -0.03, 2)
     stress, moved, _ = bilinear_on_grid(LOAD, 0.03, 0.02, DEPTHS, 2e9, 0.35, X + 0.06, Y + 0.03)

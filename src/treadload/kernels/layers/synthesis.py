@@ -37,6 +37,8 @@ _MORE = 0.6
 _FADED = 4.5
 # Wavenumbers of a block: keeps a block's fields, some 30 numbers for each, near the cache.
 _BLOCK = 30_000
+# Points on both sides of 0 are alike if they differ by less than this part of the largest.
+_SAME = 1e-12
 # Functions of |k| are tabulated from a power of ten below the smallest that is asked for, so that tables serve again.
 _DECADE = math.log(10)
 
@@ -113,16 +115,18 @@ class ElasticPlane:
     lift: float | None = None
     _tables: dict[int, Table] = field(default_factory=dict, repr=False)
 
-    def radial(self, kx: Array, ky: Array, functions: Sequence[int], smallest: float) -> dict[int, Array]:
+    def radial(
+        self, log_k: Array, functions: Sequence[int], smallest: float, precision: type[np.floating]
+    ) -> dict[int, Array]:
         """Functions of the displacement, A, C, D, E, F, 0 to 4, and of the force, 5 to 9, (nky, nkx) each.
 
-        functions: those to give. smallest: of all k that will be asked for, 1/m.
+        log_k: ln |k|, (nky, nkx). functions: those to give. smallest: of all k that will be asked for, 1/m.
         """
         decade = math.floor(math.log(smallest) / _DECADE)
         if decade not in self._tables:
             self._tables[decade] = tabulated(self._functions, math.exp(_DECADE * decade), 1.5 * self.limit)
-        values = np.moveaxis(self._tables[decade](np.hypot(kx, ky[:, None]), functions), -1, 0)
-        return dict(zip(functions, np.ascontiguousarray(values), strict=True))
+        values = np.moveaxis(self._tables[decade](log_k, functions), -1, 0)
+        return dict(zip(functions, values.astype(precision, order="C"), strict=True))
 
     def _functions(self, k: Array) -> Array:
         """As functions of k (n,) → (10, n)."""
@@ -195,15 +199,22 @@ def synthesise_cells(
     smallest = math.hypot(kx_all[0], ky_all[0])
     rows = [int(np.searchsorted(ky_all, plane.limit, side="right")) for plane in planes]
     ky_all, wy_all = ky_all[: max(rows)], wy_all[: max(rows)]
+    # At points on both sides of 0 alike, what is even and odd along and across is added up on one side alone.
+    folded = at is None and _is_symmetric(x) and _is_symmetric(y)
+    shape = (len(y), len(x)) if at is None else at.shape
+    if folded:
+        x, y = x[len(x) // 2 :], y[len(y) // 2 :]
     back = _back(ky_all, wy_all / math.pi**2, y).astype(precision)
     transforms = [LoadSpectrum.of(load, ky_all, precision) for load in loads]
-    sums = np.zeros((len(pairs), len(sources), *((len(y), len(x)) if at is None else at.shape)), precision)
+    each = (2, len(sources), 2, len(y), len(x)) if folded else (len(sources), *shape)
+    sums = np.zeros((len(pairs), *each), precision)
     step = max(1, _BLOCK // max(rows))
     for start in range(0, len(kx_all), step):
         kx, wx = kx_all[start : start + step], wx_all[start : start + step]
         if all(kx[0] > plane.limit for plane in planes):
             break
         spectra = [transform.at(kx, ky_all) for transform in transforms]
+        log_k = np.log(np.hypot(kx, ky_all[:, None]))
         out = _back(kx, wx, x).astype(precision, copy=False)
         short_x, short_y = kx.astype(precision, copy=False), ky_all.astype(precision, copy=False)[:, None]
         for number, (plane, n) in enumerate(zip(planes, rows, strict=True)):
@@ -211,14 +222,17 @@ def synthesise_cells(
             count = int(np.searchsorted(kx, plane.limit, side="right"))
             if not count or not served:
                 continue
-            exact = plane.radial(kx[:count], ky_all[:n], functions, smallest)
-            radial = {number: values.astype(precision, copy=False) for number, values in exact.items()}
+            radial = plane.radial(log_k[:n, :count], functions, smallest, precision)
             for place, load in served:
                 waves = _waves(spectra[load][..., :n, :count], radial, short_x[:count], short_y[:n], sources)
-                _add(sums[place], waves, back[:, :n], out[:, :count], at)
+                if folded:
+                    _add_parts(sums[place], waves, back[:, :n], out[:, :count])
+                else:
+                    _add(sums[place], waves, back[:, :n], out[:, :count], at)
     places = dict(zip(sources, range(len(sources)), strict=True))
-    fields = np.empty((len(components), *sums[:, 0].shape), precision)
-    for number, (total, (_, index)) in enumerate(zip(sums, pairs, strict=True)):
+    fields = np.empty((len(components), len(pairs), *shape), precision)
+    for number, (parts, (_, index)) in enumerate(zip(sums, pairs, strict=True)):
+        total = _unfolded(parts, shape) if folded else parts
         _components(total, places, planes[index], components, fields[:, number])
     return fields.swapaxes(0, 1)
 
@@ -245,9 +259,10 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
 
     def turned(potential: Array, by: int, shear: int) -> Array:
         """What shear does alone less the slope of a potential, in place of the slope."""
-        np.negative(potential, out=potential)
-        if divergence is not None:
-            potential += spectrum[shear] * radial[by]
+        if divergence is None:
+            np.negative(potential, out=potential)
+        else:
+            np.subtract(spectrum[shear] * radial[by], potential, out=potential)
         return potential
 
     waves = np.empty((2, len(sources), *pressure.shape[1:]), pressure.dtype)
@@ -267,6 +282,34 @@ def _waves(spectrum: Array, radial: Mapping[int, Array], kx: Array, ky: Array, s
     for place, source in enumerate(sources):
         waves[:, place] = make[source]()
     return waves
+
+
+def _is_symmetric(x: Array) -> bool:
+    """Whether rising points lie on both sides of 0 alike."""
+    return bool(np.abs(x + x[::-1]).max() <= _SAME * np.abs(x).max())
+
+
+def _add_parts(total: Array, waves: Array, back: Array, out: Array) -> None:
+    """Add a block to the parts even and odd along and across, (2, n, 2, my, mx), see `_unfolded`; else as `_add`."""
+    to_y = back.swapaxes(1, 2)
+    rows, columns = waves.shape[3:]
+    my, mx = to_y.shape[1], out.shape[2]
+    along_first = mx * rows * (columns + my) < my * columns * (rows + mx)
+    for parts, part, matrix in zip(total, waves, out, strict=True):
+        parts += to_y @ (part @ matrix) if along_first else (to_y @ part) @ matrix
+
+
+def _unfolded(parts: Array, shape: tuple[int, int]) -> Array:
+    """Sources (n, my, mx) at points on both sides of 0 from their parts even and odd along and across.
+
+    parts: (2, n, 2, ...), at the points that are not below 0. shape: (my, mx).
+    """
+    my, mx = shape
+    even, odd = parts
+    lines = np.concatenate([(even - odd)[..., mx % 2 :][..., ::-1], even + odd], axis=-1)
+    even, odd = lines[:, 0], lines[:, 1]
+    sources: Array = np.concatenate([(even - odd)[:, my % 2 :][:, ::-1], even + odd], axis=1)
+    return sources
 
 
 def _add(total: Array, waves: Array, back: Array, out: Array, at: Points | None) -> None:

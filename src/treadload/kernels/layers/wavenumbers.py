@@ -102,7 +102,7 @@ def disc_spectrum(radius: float, pressure: float, x: float, y: float) -> Spectru
 
 
 Table = Callable[[Array, Sequence[int]], Array]
-"""(k (...), numbers of functions (m,)) → (..., m)."""
+"""(ln k (...), numbers of functions (m,)) → (..., m)."""
 
 
 def tabulated(values: Callable[[Array], Array], smallest: float, largest: float) -> Table:
@@ -121,8 +121,8 @@ def tabulated(values: Callable[[Array], Array], smallest: float, largest: float)
     powers = np.linalg.inv(np.vander(chebyshev, count))
     coefficients = np.tensordot(powers, samples, axes=1) / (width ** np.arange(count)[::-1])[:, None, None]
 
-    def at(k: Array, functions: Sequence[int]) -> Array:
-        result: Array = scipy.interpolate.PPoly(coefficients[..., list(functions)], edges)(np.log(k))
+    def at(log_k: Array, functions: Sequence[int]) -> Array:
+        result: Array = scipy.interpolate.PPoly(coefficients[..., list(functions)], edges)(log_k)
         return result
 
     return at
