@@ -197,11 +197,11 @@ CRITERIA = (
 )
 
 
-def wheels(places=((0.0, 0.0),), cells=CELLS):
+def wheels(places=((0.0, 0.0),), cells=CELLS, *, pushed=False):
     one = load(cells)
     loads = tuple(one.moved(x, y) for x, y in places)
     x = np.array([cells.x + at for at in sorted({x for x, _ in places})])
-    return Wheels(loads, x, None, "one", 0.0)
+    return Wheels(loads, x, None, "one", 0.0, has_side_force=pushed)
 
 
 @pytest.fixture(scope="module")
@@ -222,6 +222,19 @@ def test_passages_together_are_those_alone(tasks):
             np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-6)
             # A trace at the angle π/2 is the one at -π/2; it turns by the error over the gap of principals.
             np.testing.assert_allclose(np.sin(found[:, 3:] - alone[:, 3:]), 0 * found[:, 3:], atol=1e-5)
+
+
+def test_wheels_with_a_side_force_go_with_others_on_the_same_cells():
+    """The basin and what lies deep are solved together, means near the surface on rows of their own."""
+    surface = Criterion("surface", FatigueLine(90e-6, -0.2), 0, "top", "principal", length=0.03)
+    season = Warm(road(6e9), (surface, *CRITERIA))
+    several = [Passing(wheels(pushed=pushed), season, ACROSS, 3) for pushed in (False, True)]
+    assert [task.wheels.parts > 1 for task in several] == [False, True]
+    assert batches(several) == [[0, 1]]
+    for found, task in zip(passages(several), several, strict=True):
+        (alone,) = passages([task])
+        size = np.abs(alone[:, :3]).max(axis=(1, 2), keepdims=True)
+        np.testing.assert_allclose(found[:, :3] / size, alone[:, :3] / size, rtol=0, atol=1e-6)
 
 
 def test_what_stands_on_the_same_cells_goes_together_road_by_road(tasks, monkeypatch):

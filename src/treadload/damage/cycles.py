@@ -126,8 +126,9 @@ def harm_of(law: FatigueLaw, turns: Array) -> Array:
     columns = np.flatnonzero(turns[:count].max(axis=0) > 0)
     harm = np.zeros(turns.shape[1])
     if len(columns):
-        sign = np.where(np.arange(count) % 2, -1.0, 1.0)[:, None]
-        each = sign / np.asarray(law.allowable_passes(turns[:count, columns]))
+        sign, read = np.where(np.arange(count) % 2, -1.0, 1.0)[:, None], turns[:count, columns]
+        each, rises = np.zeros(read.shape), read > 0
+        each[rises] = 1 / np.asarray(law.allowable_passes(read[rises]))
         # Where axles merge into one peak, round-off may leave less than nothing.
-        harm[columns] = np.maximum(each.sum(axis=0), 0.0)
+        harm[columns] = np.maximum((sign * each).sum(axis=0), 0.0)
     return harm

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
+from collections.abc import Hashable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import scipy
@@ -22,6 +25,9 @@ _SAME = 1e-9
 # Weights of values that change no digit of single precision.
 _LOST = 1e-12
 
+Field = tuple[tuple[Hashable, ...], Array, dict[Any, Any]]
+"""Dimensions, values and attributes of a variable."""
+
 
 @dataclass(frozen=True, eq=False)
 class Basin:
@@ -29,8 +35,8 @@ class Basin:
 
     x: (mx,), y: (my,), m, points that are solved. columns: (nx,), m, of which lines are read, with along (nx, mx)
     that makes their values of those at x. rows: (ny,), m, lines away from the wheels, with across (ny, my). near:
-    (lines,), m, rows of the near field, with onto (lines, my). outside: (nx,), columns that the near field leaves to
-    the basin.
+    (lines,), m, rows of the near field. outside: (nx,), columns that the near field leaves to the basin.
+    outside_rows: (rows,), m, those of the near rows on which these are read, with onto (rows, my).
     """
 
     x: Array
@@ -40,47 +46,54 @@ class Basin:
     rows: Array
     across: Array
     near: Array
-    onto: Array
     outside: Array
+    outside_rows: Array
+    onto: Array
+
+    @classmethod
+    def points(cls, wheels: Wheels, y: Array, reach: float) -> tuple[Array, Array]:
+        """Where the basin of a class is solved, x and y, m; arguments as of `of`."""
+        beside = [(load.grid.y[0], load.grid.y[-1]) for load in wheels.loads]
+        x = _graded(wheels.x[0, 0] - reach, wheels.x[-1, -1] + reach, _axles(wheels))
+        return x, _graded(float(y[0]), float(y[-1]), np.array(beside))
 
     @classmethod
     def of(cls, wheels: Wheels, y: Array, near: Array, reach: float) -> Basin:
         """Of a class that is read at y, whose near field has some rows, m. reach: m, along travel."""
-        axles = np.stack([wheels.x[:, 0], wheels.x[:, -1]], axis=1)
-        beside = [(load.grid.y[0], load.grid.y[-1]) for load in wheels.loads]
-        x = _graded(wheels.x[0, 0] - reach, wheels.x[-1, -1] + reach, axles)
-        at_y = _graded(float(y[0]), float(y[-1]), np.array(beside))
+        x, at_y = cls.points(wheels, y, reach)
         columns, rows = _halved(x), _halved(at_y)
         gap = np.abs(rows[:, None] - near).min(axis=1)
         rows = rows[gap > 0.25 * STEP]
         inside = np.zeros(len(columns), dtype=bool)
-        for low, high in axles:
+        for low, high in _axles(wheels):
             inside |= (columns > low - BEYOND - _SAME) & (columns < high + BEYOND + _SAME)
-        return cls(
-            x, at_y, columns, _splines(x, columns), rows, _splines(at_y, rows), near, _splines(at_y, near), ~inside
-        )
+        outside_rows = _apart(near)
+        along, across, onto = _splines(x, columns), _splines(at_y, rows), _splines(at_y, outside_rows)
+        return cls(x, at_y, columns, along, rows, across, near, ~inside, outside_rows, onto)
 
     def lines(self, data: xr.Dataset) -> tuple[xr.Dataset, xr.Dataset]:
-        """Tensors over (depth, y, x) of the basin's points: on its lines, and on near rows in the columns outside.
+        """Tensors over (depth, y, x) of the basin's points: on its lines, and in the columns outside on near rows.
 
         Components are smooth and follow splines; what is read of them is not, where principal directions change
         places and where tension begins.
         """
+        both: list[dict[str, Field]] = [{}, {}]
+        for name, field in data.variables.items():
+            if name not in data.coords:
+                along = field.values.astype(np.float32, copy=False) @ self.along.T
+                both[0][str(name)] = (field.dims, self.across @ along, field.attrs)
+                both[1][str(name)] = (field.dims, self.onto @ along[..., self.outside], field.attrs)
+        depths = data.variables["depth"].values
+        # Variables, not arrays with coordinates, which cost more than these products.
         return (
-            _onto(data, self.across, self.along, self.rows, self.columns),
-            _onto(data, self.onto, self.along[self.outside], self.near, self.columns[self.outside]),
+            xr.Dataset(both[0], without_indexes(depths, self.rows, self.columns)),
+            xr.Dataset(both[1], without_indexes(depths, self.outside_rows, self.columns[self.outside])),
         )
 
 
-def _onto(data: xr.Dataset, across: Array, along: Array, y: Array, x: Array) -> xr.Dataset:
-    """Fields (depth, y, x) on other y and x, m."""
-    # Variables, not arrays with coordinates, which cost more than these products.
-    fields = {
-        name: (field.dims, across @ (field.values.astype(np.float32, copy=False) @ along.T), field.attrs)
-        for name, field in data.variables.items()
-        if name not in data.coords
-    }
-    return xr.Dataset(fields, without_indexes(data.variables["depth"].values, y, x))
+def _axles(wheels: Wheels) -> Array:
+    """First and last x (axle, 2) of the cells under each axle, m."""
+    return np.stack([wheels.x[:, 0], wheels.x[:, -1]], axis=1)
 
 
 def _graded(low: float, high: float, wheels: Array) -> Array:
@@ -93,6 +106,15 @@ def _graded(low: float, high: float, wheels: Array) -> Array:
     near[::2] = True
     points: Array = even[near]
     return points
+
+
+def _apart(rows: Array) -> Array:
+    """Those of rising rows, m, that are `BESIDE_STEP` apart where they are closer, with the first and the last."""
+    chosen = [rows[0]]
+    for row, following in itertools.pairwise(rows[1:]):
+        if following - chosen[-1] > BESIDE_STEP + _SAME:
+            chosen.append(row)
+    return np.array([*chosen, rows[-1]])
 
 
 def _halved(at: Array) -> Array:

@@ -12,7 +12,7 @@ import xarray as xr
 from treadload.damage.criterion import Criterion
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.life.basin import Basin
-from treadload.life.lines import Lines
+from treadload.life.lines import Lines, straight
 from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.wheels import Wheels
 
@@ -50,14 +50,16 @@ class Followed:
         mean_over: float | None,
         power: float,
     ) -> Self:
-        """Of fields near (depth, rows, x), of the basin on the same rows, and on its lines, see `Basin.lines`.
+        """Of fields near (depth, rows, x), of the basin on some of these rows, and on its lines, see `Basin.lines`.
 
         mean_over: m, None for points. power: of the law, by which damage grows with the value.
         """
         near, outside, far = fields
-        uncut, margin = evaluated(near)
+        uncut, margin = _in_single(*evaluated(near))
         by_depth = readings(uncut, margin)
-        away, beside = (readings(*evaluated(part)) for part in (far, outside))
+        away, on_rows = (readings(*_in_single(*evaluated(part))) for part in (far, outside))
+        onto = straight(basin.outside_rows, basin.near)
+        beside = np.stack([onto @ sheet for sheet in on_rows])
         x, centres = near["x"].to_numpy(), wheels.x.mean(axis=1)
         whole = np.concatenate([by_depth, beside], axis=2)
         read = whole.max(axis=0)
@@ -70,6 +72,11 @@ class Followed:
                 _set_peak(on_core, np.flatnonzero(axle == number), peak)
         x_all = np.concatenate([x, basin.columns[basin.outside]])
         return cls(x_all, read, on_core, away.max(axis=0), whole, away, np.arange(len(x_all)) >= len(x))
+
+
+def _in_single(uncut: Array, margin: Array | None) -> tuple[Array, Array | None]:
+    """In single numbers, in which the fields behind them are."""
+    return uncut.astype(np.float32), None if margin is None else margin.astype(np.float32)
 
 
 def power_of(criterion: Criterion) -> float:

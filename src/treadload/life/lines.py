@@ -153,3 +153,8 @@ def rows_of(wheels: Wheels, y: Array, plane: Plane) -> Array:
     within = wheels.cell * ((np.arange(parts) + 0.5) / parts - 0.5)
     divided: Array = (rows[:, None] + within).ravel()
     return divided
+
+
+def points_of(wheels: Wheels, y: Array, plane: Plane) -> int:
+    """How many points of the near field are solved in a plane."""
+    return len(along(wheels, plane)) * len(rows_of(wheels, y, plane))

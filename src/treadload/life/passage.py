@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter
 from treadload.life.followed import Followed, power_of
-from treadload.life.lines import Lines, Plane, along, parts_of, rows_of
+from treadload.life.lines import Lines, Plane, along, nearest_of, parts_of, points_of, rows_of
 from treadload.life.peaks import over_strips, peaks_and_valleys, readings
 from treadload.life.seasons import Warm
 from treadload.life.wheels import Wheels
@@ -71,6 +72,15 @@ class Passing:
         """Where one of its criteria reads."""
         return Plane.of(self.warm.criteria[number], self.depth(number), self.wheels.cell)
 
+    @cached_property
+    def planes(self) -> dict[tuple[Plane, int], list[int]]:
+        """Criteria, by number, that are read in each plane with rows in so many parts of a cell, see `parts_of`."""
+        planes: dict[tuple[Plane, int], list[int]] = {}
+        for number in range(len(self.warm.criteria)):
+            plane = self.plane(number)
+            planes.setdefault((plane, parts_of(self.wheels, plane)), []).append(number)
+        return planes
+
     @property
     def speed(self) -> float | None:
         """At which the wheels roll, m/s, where the road minds."""
@@ -107,22 +117,28 @@ def stream_passings(
 def batches(tasks: Sequence[Passing], threads: int = 1) -> list[list[int]]:
     """Tasks by number that are worth solving together: their wheels stand on the same cells, at the same speed.
 
-    Those of one road follow each other, and so many go together that their fields stay small, and that no thread is
-    left without.
+    Those of one road follow each other; so many go together that fields stay small and every thread has work.
     """
     alike: dict[Any, list[int]] = {}
     for number, task in enumerate(tasks):
-        cells = (tuple(load.grid for load in task.wheels.loads), task.wheels.has_side_force)
-        alike.setdefault((cells, task.speed, float(task.y[0]), len(task.y), task.reach), []).append(number)
+        grids = tuple(load.grid for load in task.wheels.loads)
+        alike.setdefault((grids, task.speed, float(task.y[0]), len(task.y), task.reach), []).append(number)
     parts: list[list[int]] = []
     for members in alike.values():
-        first = tasks[members[0]]
-        planes = {first.plane(k) for k in range(len(first.warm.criteria))}
-        points = max(len(along(first.wheels, plane)) * len(rows_of(first.wheels, first.y, plane)) for plane in planes)
         roads = [id(tasks[number].warm.road) for number in members]
         members.sort(key=lambda number: roads.index(id(tasks[number].warm.road)))
-        size = max(1, min(_TOGETHER // points, math.ceil(len(members) * len(alike) / threads)))
-        parts += [members[start : start + size] for start in range(0, len(members), size)]
+        size = math.ceil(len(members) * len(alike) / threads)
+        points: dict[tuple[Plane, int], int] = {}
+        parts.append([])
+        for number in members:
+            task = tasks[number]
+            added = {key: points_of(task.wheels, task.y, key[0]) for key in task.planes}
+            most = max(points.get(key, 0) + count for key, count in added.items())
+            if parts[-1] and (len(parts[-1]) == size or most > _TOGETHER):
+                points = {}
+                parts.append([])
+            parts[-1].append(number)
+            points |= {key: points.get(key, 0) + count for key, count in added.items()}
     return parts
 
 
@@ -134,46 +150,67 @@ def passages(tasks: Sequence[Passing]) -> list[Array]:
     results: list[Array] = [
         np.empty((len(task.warm.criteria), task.turns + BEHIND, len(task.y)), np.float32) for task in tasks
     ]
-    planes: dict[Plane, dict[int, list[int]]] = {}
+    planes: dict[tuple[Plane, int], dict[int, list[int]]] = {}
     for number, task in enumerate(tasks):
-        for k in range(len(task.warm.criteria)):
-            planes.setdefault(task.plane(k), {}).setdefault(number, []).append(k)
-    for plane, members in planes.items():
-        again = _pass(tasks, plane, members, results)
+        for key, numbers in task.planes.items():
+            planes.setdefault(key, {})[number] = numbers
+    around = _basins(tasks)
+    for (plane, _), members in planes.items():
+        again = _pass(tasks, plane, members, around.get(plane), results)
         # What is largest at the edge of what was solved is solved further.
         if again:
-            _pass(tasks, replace(plane, margin=tasks[0].reach), again, results)
+            _pass(tasks, replace(plane, margin=tasks[0].reach), again, None, results)
     return results
 
 
+def _basins(tasks: Sequence[Passing]) -> dict[Plane, dict[int, xr.Dataset]]:
+    """What is solved around the wheels of each task, by number, for every wide plane."""
+    planes: dict[Plane, dict[int, list[int]]] = {}
+    for number, task in enumerate(tasks):
+        for (plane, _), numbers in task.planes.items():
+            if plane.wide:
+                planes.setdefault(plane, {})[number] = numbers
+    x, y = Basin.points(tasks[0].wheels, tasks[0].y, tasks[0].reach)
+    solved = {}
+    for plane, members in planes.items():
+        several = [(tasks[number], numbers) for number, numbers in members.items()]
+        solved[plane] = dict(zip(members, _solved(several, plane, x, y, basin=True), strict=True))
+    return solved
+
+
 def _pass(
-    tasks: Sequence[Passing], plane: Plane, members: Mapping[int, list[int]], results: Sequence[Array]
+    tasks: Sequence[Passing],
+    plane: Plane,
+    members: Mapping[int, list[int]],
+    around: Mapping[int, xr.Dataset] | None,
+    results: Sequence[Array],
 ) -> dict[int, list[int]]:
-    """Into results what criteria, by number of each task, read in a plane; those whose largest is on its border."""
-    wheels, y, turns = tasks[0].wheels, tasks[0].y, tasks[0].turns
+    """Into results what criteria, by number of each task, read in a plane; those whose largest is on its border.
+
+    around: what `_basins` solved, where the plane is wide.
+    """
+    first = tasks[min(members)]
+    wheels, y, turns = first.wheels, first.y, first.turns
     x, rows = along(wheels, plane), rows_of(wheels, y, plane)
-    basin = Basin.of(wheels, y, rows, tasks[0].reach) if plane.wide else None
+    basin = None if around is None else Basin.of(wheels, y, rows, first.reach)
     lines = Lines.of(plane, wheels, rows, y, basin)
-    several = [(tasks[number], numbers) for number, numbers in members.items()]
-    far: Sequence[xr.Dataset | None] = [None] * len(several)
-    if basin is not None:
-        far = _solved(several, plane, basin.x, basin.y, basin=True)
     worst: list[Worst] = []
+    several = [(tasks[number], numbers) for number, numbers in members.items()]
     again: dict[int, list[int]] = {}
-    for (number, numbers), data, beyond in zip(members.items(), _solved(several, plane, x, rows), far, strict=True):
+    for (number, numbers), data in zip(members.items(), _solved(several, plane, x, rows), strict=True):
         task, levels = tasks[number], list(data["depth"].to_numpy())
-        around = None if basin is None or beyond is None else basin.lines(beyond)
+        far = None if basin is None or around is None else basin.lines(around[number])
         for k in numbers:
             own_rows = [levels.index(depth) for depth in task.depths(k)]
             whole = own_rows == list(range(len(levels)))
             at = data if whole else data.isel(depth=own_rows)
             criterion, result = task.criterion(k), results[number][k]
-            if basin is None or around is None:
+            if basin is None or far is None:
                 fields, ends = _read(result, criterion, at, task, plane, lines)
                 if ends and plane.margin < task.reach:
                     again.setdefault(number, []).append(k)
             else:
-                away, outside = (part if whole else part.isel(depth=own_rows) for part in around)
+                away, outside = (part if whole else part.isel(depth=own_rows) for part in far)
                 fields = _read_both(result, criterion, (at, outside, away), task, lines, basin)
             worst.append((criterion, fields, result))
     _add_cracks(worst, lines.nearest, turns)
@@ -185,10 +222,10 @@ def near_and_far(task: Passing, number: int) -> tuple[Lines, Basin, tuple[xr.Dat
     plane = task.plane(number)
     if not plane.wide:
         return None
-    wheels, y = task.wheels, task.y
+    wheels, y, several = task.wheels, task.y, [(task, [number])]
     rows = rows_of(wheels, y, plane)
     basin = Basin.of(wheels, y, rows, task.reach)
-    lines, several = Lines.of(plane, wheels, rows, y, basin), [(task, [number])]
+    lines = Lines.of(plane, wheels, rows, y, basin)
     (beyond,) = _solved(several, plane, basin.x, basin.y, basin=True)
     (near,) = _solved(several, plane, along(wheels, plane), rows)
     away, outside = basin.lines(beyond)
@@ -272,7 +309,7 @@ def _read_both(
 ) -> Fields:
     """Into (turns + BEHIND, y) what a criterion reads near and far; the fields where it reads most on each line.
 
-    fields: near (depth, rows, x); of the basin on the same rows, and on its lines, see `Basin.lines`. Lines are
+    fields: near (depth, rows, x); of the basin on some of the rows, and on its lines, see `Basin.lines`. Lines are
     followed from rest to rest; peaks under axles are those between the points, or those of strips.
     """
     turns, power = task.turns, power_of(criterion)
@@ -301,7 +338,7 @@ def _read_both(
     inner, outer = np.flatnonzero(at < len(x)), np.flatnonzero(at >= len(x))
     parts = (
         _at(near, deep_near[inner], at[inner], inner),
-        _at(outside, deep_near[outer], at[outer] - len(x), outer),
+        _at(outside, deep_near[outer], at[outer] - len(x), nearest_of(basin.outside_rows, basin.near)[outer]),
         _at(far, deep[count:], most[count:]),
     )
     back = np.argsort(np.concatenate([inner, outer, np.arange(count, len(deep))]), kind="stable")[lines.order]
