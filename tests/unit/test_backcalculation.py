@@ -402,7 +402,7 @@ def test_a_design_case_takes_its_road_and_scatter_from_a_station(tmp_path):
     ):
         with pytest.raises(InputError, match=words):
             with_fitted_road({"pavement": {"from": source}}, tmp_path)
-    with pytest.raises(InputError, match=r"in place of pavement\.layers"):
+    with pytest.raises(InputError, match=r"replaces pavement\.layers; leave one of them out"):
         tl.Case.from_dict({"pavement": {"from": "moduli.nc#km 1.2", "layers": []}}, folder=tmp_path)
 
 

@@ -96,7 +96,8 @@ def test_a_life_reads_the_bond_by_season_and_speed_and_names_its_interface() -> 
     np.testing.assert_allclose(read.sel(axle_class="slow") / read.sel(axle_class="fast"), 10**0.2, rtol=1e-6)
     (largest,) = [row for row in life.rows() if row.group == "bond" and row.key == "largest_reading"]
     assert largest.value == pytest.approx(float(life.dataset["largest_reading"].sel(criterion="bond")))
-    assert "interface 1, below wearing course" in largest.note
+    (depth,) = [row for row in life.rows() if row.group == "bond" and row.key == "read_depth"]
+    assert depth.note == "interface 1, below wearing course"
     assert largest.sentence in life.summary()
 
 

@@ -113,7 +113,7 @@ def test_a_case_has_one_source_and_no_rolling_state_but_that_of_a_wheel():
     sources = [described.source.name for described in (case(PRESSED), case(ROLLED), wheel)]
     assert sources == ["indentation", "drum", "contact"]
     for more, name in ((rolling, "rolling"), (ROLLED[ROLLED.index("[drum]") :], "drum")):
-        with pytest.raises(tl.InputError, match=rf"\[indentation\] stands in place .* leave out {name}"):
+        with pytest.raises(tl.InputError, match=rf"\[indentation\] replaces .* leave out {name}"):
             case(PRESSED + more)
     for text, name in ((PRESSED, "indentation"), (ROLLED, "drum")):
         with pytest.raises(tl.InputError, match=rf"has \[{name}\] and no rolling state"):

@@ -317,7 +317,7 @@ def test_treads_without_blocks_are_refused(profile, text):
 
 
 def test_tires_and_wheels_that_have_no_passage():
-    with pytest.raises(InputError, match="blocks stand on a belt"):
+    with pytest.raises(InputError, match="blocks need a belt"):
         solve_pitch(Tire.from_profile(LUGS, inflation_pressure=3e5), ROAD, FREE, spacing=CELL)
     with pytest.raises(InputError, match=r"positions must lie in \[4, 200\], got 3"):
         solve_pitch(TIRE, ROAD, FREE, positions=3)

@@ -78,7 +78,7 @@ class VerdictPanel:
                     with_attributes(text("dd", fact), data_fact=label)
             for line, name in ((card["further"], "further"), (card["map"], "bright")):
                 if line:
-                    text("p", line).classes("note").props(f'id="{name}"')
+                    with_attributes(text("p", line).classes("note"), id=name)
 
     def show_allowed(self, allowed: Allowed) -> None:
         """Show load repetitions by criterion below the numbers; they are known last."""
