@@ -69,7 +69,8 @@ def test_a_wheel_on_a_road(coarse_result, tmp_path):
     parts = dict(coarse_result.parts)
     sentence, headline = check(coarse_result, parts, number_of(parts), tmp_path / "r.html")
     # The first line that the command line prints.
-    assert sentence.partition("\n")[0] == headline
+    criterion = re.search("(Governing c|C)riterion: (.*?)\\. Place", sentence)[2]
+    assert sentence.partition("\n")[0] == f"{headline} ({criterion})"
     # A file that is opened again.
     opened = tl.open_results(tl.save_results(coarse_result, tmp_path / "r.nc"))
     check(opened, {name: opened[name] for name in opened}, number_of(parts), tmp_path / "r.html")
@@ -158,4 +159,5 @@ def test_cases_of_the_templates_and_examples(name, tmp_path):
     result = tl.run(case.model_copy(update={"spacing": 0.016}), leave_out=SLOW)
     parts = dict(result.parts)
     sentence, headline = check(result, parts, number_of(parts), tmp_path / "r.html")
-    assert sentence.partition("\n")[0] == headline
+    criterion = re.search("(Governing c|C)riterion: (.*?)\\. Place", sentence)[2]
+    assert sentence.partition("\n")[0] == f"{headline} ({criterion})"

@@ -45,6 +45,12 @@ class Answer:
         return f"{self.label}: {self.value}"
 
     @property
+    def first_line(self) -> str:
+        """The headline and the criterion that it is about."""
+        criterion = next((text for term, text in self.facts if term.lower().endswith("criterion")), "")
+        return f"{self.headline} ({criterion})" if criterion else self.headline
+
+    @property
     def sentence(self) -> str:
         """All of it as text."""
         parts = [self.headline, *(f"{term}: {text}" for term, text in self.facts)]

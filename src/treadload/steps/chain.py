@@ -74,7 +74,7 @@ class Result(Study):
             # The road stands behind what loads it.
             texts.insert(1 if "contact" in self.parts else 0, road_in_rows(self.road, self.case))
         answer = next((part.answer for part in self.parts.values() if isinstance(part, Life | Verdict)), None)
-        return "\n\n".join([*([] if answer is None else [answer.headline]), *texts])
+        return "\n\n".join([*([] if answer is None else [answer.first_line]), *texts])
 
     __repr__ = first_line
 
