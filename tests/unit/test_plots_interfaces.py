@@ -121,3 +121,5 @@ def test_sliding_is_drawn_where_layers_slide_and_points_the_way_of_the_upper_one
     assert len(png(figure)) > 10_000
     with pytest.raises(InputError, match="nothing slides"):
         sliding(fields)
+    with pytest.raises(InputError, match="frictionless, whose sliding is not solved"):
+        sliding(solve_interfaces(BRAKED, _road(FRICTIONLESS), x=X, y=X))

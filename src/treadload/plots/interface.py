@@ -159,9 +159,12 @@ def sliding(fields: Source, *, contact: Source | None = None) -> Figure:
     data = fields_of(fields, "jump_x", "jump_y", "interface_shear", "interface_pressure")
     along, across = (data[f"jump_{name}"].transpose("interface", "y", "x").to_numpy() for name in "xy")
     size = np.hypot(along, across)
-    slid = [k for k in range(len(size)) if np.nanmax(size[k]) > 0]
+    slid = [k for k in range(len(size)) if (size[k] > 0).any()]
     if not slid:
-        raise InputError("nothing slides at these interfaces; give a layer bond=Parted(...) or Bond(stiffness=...)")
+        raise InputError(
+            "nothing slides at these interfaces, or they are frictionless, whose sliding is not solved; "
+            "give a layer bond=Parted(...) or Bond(stiffness=...)"
+        )
     plan = Plan.of(data)
     figure = new_figure(len(slid) * (_MAP + 1.35), min(9.0, _MAP * plan.aspect + 1.5), "compressed")
     for ax, k in zip(np.atleast_1d(figure.subplots(1, len(slid))), slid, strict=True):
