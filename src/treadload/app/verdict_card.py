@@ -7,13 +7,13 @@ from typing import cast
 
 from treadload.app.answers import Card
 from treadload.composing import BaseResult
-from treadload.damage import Life, Verdict
-from treadload.damage.answer import Answer
+from treadload.damage import Verdict
 from treadload.damage.quantity import Reading
 from treadload.damage.unevaluated import bright_spot
 from treadload.reporting.typesetting import typeset_text
 from treadload.response import Response
 from treadload.steps.allowed import PassesAllowed
+from treadload.steps.chain import answer_of
 
 Parts = Mapping[str, BaseResult]
 
@@ -23,7 +23,9 @@ def card_of(parts: Parts, allowed: PassesAllowed | None = None) -> Card | None:
 
     allowed: load repetitions by criterion, which are known last; until then the law of the case alone is assessed.
     """
-    answer = _answer_of(parts, allowed)
+    answer = answer_of(parts)
+    if "life" not in parts and allowed is not None and allowed.rows:
+        answer = allowed.answer(answer)
     if answer is None:
         return None
     shown = answer.written(typeset_text)
@@ -31,14 +33,6 @@ def card_of(parts: Parts, allowed: PassesAllowed | None = None) -> Card | None:
         state=shown.state, headline=shown.headline, facts=list(shown.facts),
         further=shown.further, map=typeset_text(_bright(parts)),
     )  # fmt: skip
-
-
-def _answer_of(parts: Parts, allowed: PassesAllowed | None) -> Answer | None:
-    life, verdict = parts.get("life"), parts.get("damage")
-    if isinstance(life, Life):
-        return life.answer
-    alone = verdict.answer if isinstance(verdict, Verdict) else None
-    return alone if allowed is None or not allowed.rows else allowed.answer(alone)
 
 
 def _bright(parts: Parts) -> str:

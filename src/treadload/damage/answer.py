@@ -19,6 +19,7 @@ from treadload.units import COUNTLESS, LASTS, repetitions_in_words, years_in_wor
 
 State = Literal["meets", "short", "open"]
 SERVICE_LIFE, REPETITIONS, NOT = "Service life", "Allowable load repetitions", "Does not govern"
+_CRITERION, _GOVERNING = "Criterion", "Governing criterion"
 RUT = "rut"
 """What a life calls its rut among what ends it."""
 # Criteria beside the governing one that an answer lists.
@@ -47,7 +48,8 @@ class Answer:
     @property
     def first_line(self) -> str:
         """The headline and the criterion that it is about."""
-        criterion = next((text for term, text in self.facts if term.lower().endswith("criterion")), "")
+        facts = dict(self.facts)
+        criterion = facts.get(_GOVERNING, facts.get(_CRITERION))
         return f"{self.headline} ({criterion})" if criterion else self.headline
 
     @property
@@ -78,7 +80,7 @@ def life_answer(data: xr.Dataset, rows: Sequence[Row]) -> Answer:
     state: State = "open" if design is None else "short" if years < float(design) else "meets"
     of = by_criterion.get(governing, {})
     facts = list(_design(design, years, of))
-    facts.append(("Criterion" if lasts else "Governing criterion", governing))
+    facts.append((_CRITERION if lasts else _GOVERNING, governing))
     facts += _rut(alone) if governing == RUT else _of_criterion(of)
     if governing in json.loads(data.attrs.get("surface_lines", "{}")):
         facts.append(("Caveat", "years at the surface rank alternatives and are no forecast, see what roads show"))
@@ -134,7 +136,7 @@ def fatigue_answer(data: xr.Dataset, rows: Sequence[Row]) -> Answer:
     law, worst = of["law"].text, of.get("worst_strain")
     if worst is None or worst.place is None:
         why = nothing_opens(float(data.attrs.get("largest_unread", 0.0))).rstrip(".")
-        facts = ("Criterion", law), ("Why", why)
+        facts = (_CRITERION, law), ("Why", why)
         return Answer(NOT, "no tensile stress where the strain is tensile", "meets", facts)
     trace = f", trace {of['worst_crack_angle'].number}° from travel" if "worst_crack_angle" in of else ""
     facts_of = (
@@ -152,8 +154,8 @@ def repetitions_answer(
     """The answer of allowable load repetitions by the criterion that allows the fewest. facts: without its name."""
     if repetitions >= COUNTLESS:
         more = "more than 10¹⁰ load repetitions are allowable"
-        return Answer(NOT, more, "meets", (("Criterion", criterion), *facts), listed(not_governing))
-    words, named = repetitions_in_words(repetitions), ("Governing criterion", criterion)
+        return Answer(NOT, more, "meets", ((_CRITERION, criterion), *facts), listed(not_governing))
+    words, named = repetitions_in_words(repetitions), (_GOVERNING, criterion)
     return Answer(REPETITIONS, words, "open", (named, *facts), listed(not_governing))
 
 

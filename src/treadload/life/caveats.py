@@ -10,15 +10,12 @@ from treadload.damage.criterion import Criterion
 from treadload.damage.rib_sides import SHALLOW, sides_in_words
 from treadload.damage.traffic import Traffic
 from treadload.life.design import Design
-from treadload.life.halving import can_be_halved, near_surface, pushed_classes
+from treadload.life.halving import CELL_ERRORS, can_be_halved, near_surface, pushed_classes
 from treadload.life.seasons import Warm, beyond_data
 from treadload.life.wheels import Wheels
 from treadload.pavement import Pavement
 from treadload.plausible import caveat, load_caveat
 from treadload.tire import Tire
-
-# Largest change of years from cells, m, to those of 0.75 mm, measured under ribs with side forces.
-_CELL_ERRORS = {1.5e-3: 0.03, 2e-3: 0.06, 3e-3: 0.13, 6e-3: 0.51}
 
 
 def beyond_tables(road: Pavement, climate: Climate) -> tuple[str, ...]:
@@ -83,11 +80,11 @@ def cell_caveats(design: Design) -> tuple[str, ...]:
             f"{cause}, which do so little of the damage that cells of {1e3 * spacing:g} mm change the years by at "
             "most 3 %, compared with 0.75 mm",
         )
-    cells = next((cell for cell in sorted(_CELL_ERRORS) if spacing < 1.01 * cell), max(_CELL_ERRORS))
+    cells = next((cell for cell in sorted(CELL_ERRORS) if spacing < 1.01 * cell), max(CELL_ERRORS))
     coarser = "" if spacing < 1.01 * cells else f"; cells of {1e3 * spacing:g} mm were not compared and err more"
     return (
         f"{cause}, and the years that they govern depend on the cells of the contact: on cells of {1e3 * cells:g} mm "
-        f"by up to {100 * _CELL_ERRORS[cells]:.0f} %, compared with 0.75 mm{coarser}. Cells of 3 mm are halved where "
+        f"by up to {100 * CELL_ERRORS[cells]:.0f} %, compared with 0.75 mm{coarser}. Cells of 3 mm are halved where "
         "these wheels do much of the damage",
     )
 

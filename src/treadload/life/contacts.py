@@ -11,7 +11,7 @@ from typing import TypeVar
 
 from treadload.contact import Contact
 from treadload.contact.maneuver import STRAIGHT
-from treadload.life.wheels import SIDE_FORCE, State, contact_in_state
+from treadload.life.wheels import State, contact_in_state, has_side_force
 from treadload.pavement import Pavement
 from treadload.tire import Tire
 
@@ -83,12 +83,11 @@ class Contacts:
 
     def _cells(self, state: State) -> float:
         """About how many cells the tread of a state has."""
-        spacing = self.spacing / 2 if state.halved else self.spacing
-        return math.prod((state.tire or self.tire).extent) / spacing**2
+        return math.prod((state.tire or self.tire).extent) / state.cell(self.spacing) ** 2
 
     def _on_its_cells(self, state: State) -> State:
         """The state on halved cells where it has a side force and contacts are halved."""
-        return state._replace(halved=True) if self.halved and abs(state.maneuver.lateral) > SIDE_FORCE else state
+        return state._replace(halved=True) if self.halved and has_side_force(state.maneuver) else state
 
     def _near(self, state: State) -> Contact | None:
         """The contact known whose load and pressure are nearest, relatively; None without one."""

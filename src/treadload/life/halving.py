@@ -13,13 +13,15 @@ from treadload.damage.rib_sides import SHALLOW
 from treadload.damage.traffic import Traffic
 from treadload.kernels.arrays import Array
 from treadload.life.design import Design
-from treadload.life.wheels import SIDE_FORCE
+from treadload.life.wheels import has_side_force
 
 # Cells that are halved, m. Larger ones were chosen to save time, smaller ones are fine enough.
 _HALVED = (2e-3, 4e-3)
-# Part by which cells of 3 mm change the surface damage of wheels with a side force, at most, and the part of the
+CELL_ERRORS = {1.5e-3: 0.03, 2e-3: 0.06, 3e-3: 0.13, 6e-3: 0.51}
+"""Largest change of years from cells, m, to those of 0.75 mm, measured under ribs with side forces."""
+# Part by which the default cells change the surface damage of wheels with a side force, at most, and the part of the
 # years that a life accepts, see `docs/notes/cells_and_means.md`.
-_ERROR, _ACCEPTED = 0.13, 0.025
+_ERROR, _ACCEPTED = CELL_ERRORS[3e-3], 0.025
 
 
 def can_be_halved(design: Design) -> bool:
@@ -67,8 +69,8 @@ def near_surface(design: Design) -> list[int]:
 
 
 def pushed_classes(traffic: Traffic) -> list[int]:
-    """Classes of axles, by number, whose wheels have a side force of more than `SIDE_FORCE`."""
-    return [row for row, axles in enumerate(traffic.classes) if abs(axles.maneuver.lateral) > SIDE_FORCE]
+    """Classes of axles, by number, whose wheels have a side force, see `has_side_force`."""
+    return [row for row, axles in enumerate(traffic.classes) if has_side_force(axles.maneuver)]
 
 
 def _of_side_forces(design: Design, life: Life, number: int, columns: int) -> Array:

@@ -132,15 +132,15 @@ def solve_passages(
         turns = turns_of(wheels)
 
         values = np.empty((len(classes), len(distinct), len(criteria), turns + BEHIND, len(y)), np.float32)
-        anew = set(range(len(classes)))
+        changed = set(range(len(classes)))
         if earlier is not None:
-            anew = set(pushed_classes(design.traffic))
+            changed = set(pushed_classes(design.traffic))
             roads_at = [warm.where.index(number) for number in range(len(distinct))]
             values[:] = earlier.evaluated[:, :, roads_at].transpose(1, 2, 0, 3, 4)
 
         def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
-            rows = [row for row in rows if row in anew]
+            rows = [row for row in rows if row in changed]
             tasks = [(row, number, numbers) for row in rows for number, numbers in by_road]
             passings = [
                 Passing(wheels[row], warm.by_class[row][number].reading(numbers), y, turns, reach)
@@ -151,7 +151,7 @@ def solve_passages(
                 values[row, number, numbers] = read
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
-        lighter = [row for row in range(len(classes)) if row != heaviest and row in anew]
+        lighter = [row for row in range(len(classes)) if row != heaviest and row in changed]
         solve_all([heaviest], [(number, list(range(len(criteria)))) for number in range(len(distinct))])
         warmths = [warmth_of(seasons, [road.road for road in roads]) for roads in warm.by_class]
         warmth, laws = warmths[heaviest], laws_of(warm, temperatures)
@@ -166,7 +166,7 @@ def solve_passages(
             kept.append(chosen)
             errors.append(error)
         by_road = [(n, [k for k, chosen in enumerate(kept) if n in chosen]) for n in sorted(set().union(*kept))]
-        count.total = touched + (heaviest in anew) * len(distinct) + len(lighter) * len(by_road)
+        count.total = touched + (heaviest in changed) * len(distinct) + len(lighter) * len(by_road)
         if lighter:
             solve_all(lighter, by_road)
             for k, chosen in enumerate(kept):

@@ -103,6 +103,11 @@ def check_speed(row: AxleClass, road: Pavement) -> None:
         raise InputError(f"the road is viscoelastic: give the class {row.name!r} a speed in m/s")
 
 
+def has_side_force(maneuver: Maneuver) -> bool:
+    """Whether wheels have a side force of more than `SIDE_FORCE`."""
+    return abs(maneuver.lateral) > SIDE_FORCE
+
+
 class State(NamedTuple):
     """What the contact of a class depends on, besides the tire and the road.
 
@@ -121,6 +126,10 @@ class State(NamedTuple):
     def numbers(self) -> tuple[float, float]:
         """Load and pressure."""
         return self.wheel_load, self.inflation_pressure
+
+    def cell(self, spacing: float) -> float:
+        """Size of its cells, m. spacing: of the cells of the life, m."""
+        return spacing / 2 if self.halved else spacing
 
 
 def state(row: AxleClass) -> State:
@@ -143,9 +152,8 @@ def contact_in_state(
 ) -> Contact:
     """The contact in a state. spacing: of the cells of a life, m. start: one near it."""
     inflated = replace(wanted.tire or tire, inflation_pressure=wanted.inflation_pressure)
-    spacing = spacing / 2 if wanted.halved else spacing
     rolling = wanted.maneuver.rolling(wanted.wheel_load, wanted.friction, speed=wanted.speed)
-    return solve_contact(inflated, road, rolling, spacing=spacing, start=start, tolerance=_TOLERANCE)
+    return solve_contact(inflated, road, rolling, spacing=wanted.cell(spacing), start=start, tolerance=_TOLERANCE)
 
 
 def across(contacts: Sequence[Contact], classes: Sequence[AxleClass], reach: float = MARGIN) -> Array:
@@ -187,7 +195,7 @@ def wheels_of(contacts: Sequence[Contact], row: AxleClass, y: Array) -> Wheels:
         row.name,
         float(np.abs(offsets).max()),
         tuple(offsets),
-        abs(row.maneuver.lateral) > SIDE_FORCE,
+        has_side_force(row.maneuver),
     )
 
 

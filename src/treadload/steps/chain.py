@@ -13,6 +13,7 @@ import xarray as xr
 from treadload.case import Case
 from treadload.composing import BaseResult
 from treadload.damage import Life, Verdict
+from treadload.damage.answer import Answer
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.input_caveats import question_caveats, road_caveats
@@ -73,10 +74,18 @@ class Result(Study):
         if self.case.source.states_road and self.road is not None:
             # The road stands behind what loads it.
             texts.insert(1 if "contact" in self.parts else 0, road_in_rows(self.road, self.case))
-        answer = next((part.answer for part in self.parts.values() if isinstance(part, Life | Verdict)), None)
+        answer = answer_of(self.parts)
         return "\n\n".join([*([] if answer is None else [answer.first_line]), *texts])
 
     __repr__ = first_line
+
+
+def answer_of(parts: Mapping[str, BaseResult]) -> Answer | None:
+    """The answer of the service life among results by name, else that of the fatigue law; None without either."""
+    life, verdict = parts.get("life"), parts.get("damage")
+    if isinstance(life, Life):
+        return life.answer
+    return verdict.answer if isinstance(verdict, Verdict) else None
 
 
 def run(
