@@ -5,7 +5,6 @@ from __future__ import annotations
 import codecs
 import sys
 import unicodedata
-from typing import TextIO
 
 SPELT = "treadload.spelt"
 """Name of the error handler of codecs that spells: `stream.reconfigure(errors=SPELT)`."""
@@ -20,12 +19,9 @@ _SIGNS = {
 }  # fmt: skip
 
 
-def printable(text: str, stream: TextIO | None = None) -> str:
-    """A text as a stream can show it.
-
-    stream: standard output if None. A stream without an encoding, as in memory, takes the text as it is.
-    """
-    encoding = getattr(sys.stdout if stream is None else stream, "encoding", None)
+def printable(text: str) -> str:
+    """A text as standard output can show it; one without an encoding, as in memory, takes the text as it is."""
+    encoding = getattr(sys.stdout, "encoding", None)
     return spelt(text, encoding) if encoding else text
 
 

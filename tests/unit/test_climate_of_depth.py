@@ -1,6 +1,7 @@
 """Roads divided over depth, warm and aged as depth has it, from a weather to the life of a case."""
 
 import math
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +11,6 @@ from tests.cases import ONE_AXLE
 from treadload.case import Case
 from treadload.catalogue import mixes
 from treadload.damage import Climate, Criterion, FatigueLine, PowerLine, Season, VerticalShear
-from treadload.damage.climate import binning_error
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.life import solve_life
@@ -191,9 +191,15 @@ def test_a_year_becomes_months_by_parts_of_the_day():
     assert "48 seasons by month and 4 part(s)" in climate.about[0]
 
 
+def _binning_error(swing, parts):
+    """The error of a reading that the seasons state, as a number."""
+    about = Climate.of_road(ROAD, _year(swing), parts=parts).about[0]
+    return float(re.search(r"readings off by (\S+) % would", about)[1]) / 100
+
+
 def test_what_the_parts_of_a_day_miss_falls_with_their_number():
-    assert binning_error(ROAD, _year(0.0)) == pytest.approx(0, abs=1e-12)
-    errors = [binning_error(ROAD, _year(8.0), parts=parts) for parts in (1, 2, 4, 8, 24)]
+    assert _binning_error(0.0, parts=4) == pytest.approx(0, abs=1e-12)
+    errors = [_binning_error(8.0, parts=parts) for parts in (1, 2, 4, 8, 24)]
     assert errors == sorted(errors, reverse=True)
     assert errors[-1] == pytest.approx(0, abs=1e-12)
     # From six hours to three the spread within a part halves at least, and counts squared at best.

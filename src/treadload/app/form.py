@@ -34,20 +34,6 @@ class Checked:
     case: Case | None
     wrong: Mapping[str, str]
 
-    def at(self, path: str, fields: set[str]) -> str:
-        """What is said of a field: of its key, or of one inside it that has no field of its own."""
-        return "; ".join(text for key, text in self.wrong.items() if _nearest(key, fields) == path)
-
-    def elsewhere(self, fields: set[str]) -> list[str]:
-        """What belongs to no field."""
-        return [f"{key}: {text}" if key else text for key, text in self.wrong.items() if not _nearest(key, fields)]
-
-
-def _nearest(key: str, fields: set[str]) -> str:
-    parts = key.split(".")
-    ends = (".".join(parts[:count]) for count in range(len(parts), 0, -1))
-    return next((path for path in ends if path in fields), "")
-
 
 @dataclass(frozen=True)
 class Form:

@@ -70,9 +70,8 @@ class _Parts:
     layers: tuple[str, ...] = field(default=())
 
     def group(
-        self, path: str, label: str, schema: Schema, table: Mapping[str, object], *, can_go: bool = False,
-        is_inline: bool = False,
-    ) -> Group:  # fmt: skip
+        self, path: str, label: str, schema: Schema, table: Mapping[str, object], *, can_go: bool = False
+    ) -> Group:
         properties, needed, ways = schema.get("properties", {}), schema.get(WAY, ()), ways_of(schema)
         chosen = next((way for way in ways if way in table), "")
         parts: list[Part] = []
@@ -99,7 +98,7 @@ class _Parts:
             if key not in properties:
                 parts.extend(self.key(join(path, key), more, table[key], in_table=True, can_go=True))
         words = str(schema.get("description", ""))
-        return Group(path, label, tuple(parts), tuple(rest), words, can_go, is_inline)
+        return Group(path, label, tuple(parts), tuple(rest), words, can_go)
 
     def key(self, path: str, schema: Schema, value: object, *, in_table: bool, can_go: bool) -> list[Part]:
         """The parts of one key."""

@@ -45,10 +45,7 @@ def rows_of(parts: Mapping[str, BaseResult], criterion: str = "") -> list[PageRo
         about = (inspect.getdoc(type(part)) or "").partition("\n")[0]
         shown += page_rows(part.rows(), label_of(name), about)
         if isinstance(part, Life):
-            for dim, key, heading in (
-                ("axle_class", "by_class", "Damage by axle class"),
-                ("season", "by_season", "Damage by season"),
-            ):
+            for dim, key, heading in _SHARED_OUT:
                 shares = _shares(part, criterion or part.governing_criterion, dim, key)
                 shown += page_rows(shares, heading)
     contact = parts.get("contact")

@@ -216,8 +216,8 @@ class Climate:
         its fifth power; else the mean.
 
         road: whose mixes wait for their temperature. road_temperatures: over a year at least. parts: of the day,
-        a divisor of 24, see `binning_error` for what they cost. hours: shares of the passes in the 24 hours of
-        a day, from midnight; left out, all alike. sublayers, ageing: as of a Season. Days count alike.
+        a divisor of 24; `about` states what they cost. hours: shares of the passes in the 24 hours of a day,
+        from midnight; left out, all alike. sublayers, ageing: as of a Season. Days count alike.
         Raises InputError.
         """
         labels, weights = _binned(road_temperatures, parts, hours)
@@ -270,23 +270,14 @@ def _ageing_caveat(ageing: Ageing | None) -> tuple[str, ...]:
     )
 
 
-def binning_error(
-    road: Pavement, road_temperatures: RoadTemperatures, *, parts: int = PARTS, hours: Sequence[float] | None = None
-) -> float:
-    """What seasons by month and part of the day miss of the year's hours, as an error of a reading.
-
-    The harm of the binned temperatures over that of all hours, to the power 1/n, less one, for laws of another power
-    n than that by which the bins were made, 3 and 8; the largest over the depths in mixes. Arguments as in
-    `Climate.of_road`.
-    """
-    labels, weights = _binned(road_temperatures, parts, hours)
-    return _binning_error(_softness(road, road_temperatures), labels, weights, road_temperatures.temperatures)
-
-
 def _binning_error(
     soft: Sequence[tuple[Array, Array] | None], labels: np.ndarray, weights: Array, temperatures: Array
 ) -> float:
-    """`binning_error` of hours (nt,) with their bins and weights, and temperatures (nt, nz)."""
+    """Error of a reading from the gathering of hours (nt,) into bins; weights of the hours; temperatures (nt, nz).
+
+    The harm of the binned temperatures over that of all hours, to the power 1/n, less one, for laws of another power
+    n than that by which the bins were made, 3 and 8; the largest over the depths in mixes.
+    """
     bins = [labels == label for label in np.unique(labels) if weights[labels == label].sum() > 0]
     shares = np.array([weights[rows].sum() for rows in bins])
     worst = 0.0

@@ -17,9 +17,6 @@ from treadload.kernels import tensors
 from treadload.kernels.largest import index_of_largest
 from treadload.registry import QUANTITIES
 
-# Largest depth of the shear under the edge of a tire, m.
-NEAR_SURFACE = 0.05
-
 
 def known_quantities() -> dict[str, Quantity]:
     """Quantities by their names that a response gives anywhere in the road, without anything else being given.
@@ -73,7 +70,7 @@ def _needs_more(make: Callable[..., Quantity]) -> bool:
 def peak(fields: xr.Dataset, name: str, *, deepest: float | None = None) -> dict[str, float]:
     """Largest value of a quantity and its place: {"value": ..., "depth": ..., "y": ..., "x": ...}, m.
 
-    deepest: m; depths below it do not count: `NEAR_SURFACE` for the shear strain at the edge of a tire.
+    deepest: m; depths below it do not count: 0.05 for the shear strain at the edge of a tire.
     Raises InputError where the quantity or all of its depths are missing.
 
     >>> road = tl.Pavement.half_space(tl.Elastic(1e9, 0.35))

@@ -32,7 +32,6 @@ _HOLE = "B"
 _FULL, _DIGITS = 255, 0.01
 # Sums of rounded values.
 _SUM_DIGITS = 0.005
-_LARGEST = 4_000_000
 _LAW_KEYS = ("SCALE_FACTOR", "EXPONENT")
 
 

@@ -50,8 +50,7 @@ class Plane:
 class Lines:
     """Across travel: rows that are solved near the wheels, and lines in order, those of a basin among them.
 
-    rows: of the near field, m. order: of these and the basin's, one after the other. places: of the lines, m.
-    nearest: line of each y.
+    rows: of the near field, m. order: of these and the basin's, one after the other. nearest: line of each y.
     core: y near the wheels, with strips where readings take them; onto_core (core, rows) makes their values of those
     on the rows. evaluated: m, where cycles are counted, the core's and the basin's lines, ordered among the two.
     """
@@ -59,7 +58,6 @@ class Lines:
     rows: Any
     y: Array
     order: Any
-    places: Array
     nearest: Any
     core: Any
     strips: Strips | None
@@ -81,7 +79,7 @@ class Lines:
         lines, ordered = np.unique(np.round(evaluated, 9), return_index=True)
         onto = straight(rows, y[core])
         nearest = nearest_of(places[order], y)
-        return cls(rows, y, order, places[order], nearest, core, strips, onto, lines, ordered)
+        return cls(rows, y, order, nearest, core, strips, onto, lines, ordered)
 
 
 def straight(places: Array, y: Array) -> scipy.sparse.csr_array:

@@ -189,7 +189,7 @@ class _Problem:
             stack.spring,
             stack.rigid,
         )
-        spectra = [_spectrum(load) for load in loads]
+        spectra = [spectrum_of(load) for load in loads]
         return cls(layers, stack, body, series, levels, np.array(limits), spectra, reach, extent_x, length)
 
     def panels(self, limit: float) -> tuple[Path, tuple[Array, Array]]:
@@ -348,7 +348,8 @@ def _modulus(material: Material, speed: float) -> float | Callable[[Array], Comp
     return lambda kx: solid.complex_modulus(kx * speed).conj()
 
 
-def _spectrum(load: SurfaceLoad) -> Spectrum:
+def spectrum_of(load: SurfaceLoad) -> Spectrum:
+    """Transform of a load."""
     if isinstance(load, UniformDisc):
         return disc_spectrum(load.radius, load.pressure, load.x, load.y)
     return load.spectrum

@@ -41,8 +41,6 @@ CF = "CF-1.11"
 QUESTIONS = "asked"
 """Name of the group that holds the inputs of the parts."""
 
-Part = BaseResult | GridLoad | xr.Dataset
-
 # Attributes of a group, and the row that each of them is.
 _ANSWERS = {"sentence": "verdict", "governing": "governing"}
 _NAME = re.compile(r"\w[\w \-+.,=%°()]*(?<! )")

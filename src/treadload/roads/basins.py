@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Literal, Protocol, get_args
+from dataclasses import dataclass, field
+from typing import ClassVar, Literal, Protocol, get_args
 
 import numpy as np
 
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array, BoolArray, IntArray
+from treadload.roads.drop_list import DropList
 from treadload.tables import finite_list, real_array
 
 PlateKind = Literal["uniform", "rigid", "segmented"]
@@ -76,7 +77,7 @@ class Measured(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Basins:
+class Basins(DropList):
     """Deflection basins, a row for every drop.
 
     deflection: (n, s), m, down; NaN where a sensor has none. offsets: of the sensors from the plate's axis (s,), m,
@@ -90,6 +91,8 @@ class Basins:
     >>> f"{basins.compliance[0] * 1e9:.0f} µm per kN below the plate"
     '8 µm per kN below the plate'
     """
+
+    by_drop: ClassVar = ("deflection", "load")
 
     deflection: Array
     offsets: Array
@@ -128,37 +131,10 @@ class Basins:
                 f"a sensor at {inside[0] * 1e3:g} mm lies inside the plate of radius {self.plate_radius * 1e3:g} mm; "
                 "only its centre is open: check the offsets, their unit and the radius"
             )
-        station = checked_labels("station", self.station, count) or tuple(str(number + 1) for number in range(count))
-        section = checked_labels("section", self.section, count)
-        columns: dict[str, Array | None] = {"position": self.position, "temperature": self.temperature}
-        for name, values in columns.items():
-            columns[name] = None if values is None else checked_column(name, values, count)
-        thickness = {
-            name: checked_column(f"thickness of {name}", v, count, least=0.0) for name, v in self.thickness.items()
-        }
-        settled = {
-            "deflection": deflection, "offsets": offsets, "load": load, "station": station,
-            "section": section, "thickness": thickness, **columns,
-        }  # fmt: skip
-        for name, value in settled.items():
-            object.__setattr__(self, name, value)
+        self._settle(count, deflection=deflection, offsets=offsets, load=load)
 
     def __len__(self) -> int:
         return len(self.load)
-
-    def rows(self, chosen: Sequence[int] | IntArray | BoolArray) -> Basins:
-        """Some of the drops, by number or by a mask."""
-        at = np.arange(len(self))[np.asarray(chosen)]
-        return replace(
-            self,
-            deflection=self.deflection[at],
-            load=self.load[at],
-            station=tuple(self.station[k] for k in at),
-            section=tuple(self.section[k] for k in at) if self.section else (),
-            position=None if self.position is None else self.position[at],
-            temperature=None if self.temperature is None else self.temperature[at],
-            thickness={name: values[at] for name, values in self.thickness.items()},
-        )
 
     @property
     def readings(self) -> Array:
@@ -278,27 +254,3 @@ class Basins:
 
     def __repr__(self) -> str:
         return f"<Basins of {len(self)} drops, {len(self.offsets)} sensors, {self.source or 'no source'}>"
-
-
-def checked_labels(name: str, labels: Sequence[str], count: int) -> tuple[str, ...]:
-    """Labels as texts, one for each drop, or (). Raises InputError."""
-    texts = tuple(map(str, labels))
-    if texts and len(texts) != count:
-        raise InputError(f"{name} needs a label for each of {count} drops, got {len(texts)}")
-    return texts
-
-
-def checked_column(name: str, values: object, count: int, *, least: float | None = None) -> Array:
-    """One value, or one for each drop, as (n,); those of a thickness at least 0. Raises InputError."""
-    column = np.atleast_1d(real_array(values, name))
-    if column.shape == (1,):
-        column = np.full(count, column[0])
-    if column.shape != (count,):
-        raise InputError(f"{name} needs one value, or one for each of {count} drops, got {column.shape}")
-    if least is not None and not (column >= least).all():
-        wrong = ~(column >= least)
-        raise InputError(
-            f"{name} must be {least:g} m or more at every drop, 0 where it is absent, got {column[wrong][0]:g} at "
-            f"drop {int(np.argmax(wrong)) + 1}"
-        )
-    return column

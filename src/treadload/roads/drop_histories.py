@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 
 from treadload.errors import InputError
-from treadload.kernels.arrays import Array, BoolArray, IntArray
-from treadload.roads.basins import Basins, PlateKind, checked_column, checked_labels
+from treadload.kernels.arrays import Array, IntArray
+from treadload.roads.basins import Basins, PlateKind
+from treadload.roads.drop_list import DropList
 from treadload.roads.layout import TableColumns
 from treadload.tables import finite_list, read_table, real_array
 from treadload.units import Length
@@ -25,7 +27,7 @@ _LATE = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
-class DropHistories:
+class DropHistories(DropList):
     """Force and deflections over time, a row for each drop.
 
     time: (nt,), s, evenly spaced from the start of the record. force: (n, nt), N. deflection: (n, s, nt), m, down.
@@ -37,6 +39,8 @@ class DropHistories:
     >>> f"{drop.peaks.load[0] / 1e3:.0f} kN, {drop.peaks.deflection[0, 0] * 1e6:.0f} µm"
     '50 kN, 398 µm'
     """
+
+    by_drop: ClassVar = ("force", "deflection")
 
     time: Array
     force: Array
@@ -68,20 +72,7 @@ class DropHistories:
                 "deflection "
                 f"(n, {len(offsets)}, {len(time)}), got {force.shape} and {deflection.shape}"
             )
-        settled = {
-            "time": time, "force": force, "deflection": deflection, "offsets": offsets,
-            "station": checked_labels("station", self.station, count)
-            or tuple(str(number + 1) for number in range(count)),
-            "temperature": None
-            if self.temperature is None
-            else checked_column("temperature", self.temperature, count),
-            "thickness": {
-                name: checked_column(f"thickness of {name}", values, count, least=0.0)
-                for name, values in self.thickness.items()
-            },
-        }  # fmt: skip
-        for name, value in settled.items():
-            object.__setattr__(self, name, value)
+        self._settle(count, time=time, force=force, deflection=deflection, offsets=offsets)
         # The plate, the offsets and their order are checked as those of a static basin are.
         _ = self.peaks
 
@@ -105,18 +96,6 @@ class DropHistories:
     def delays(self) -> Array:
         """Times of the sensors' peaks after that of the force (n, s), s, between samples by a parabola."""
         return _peak_times(self.time, self.deflection) - _peak_times(self.time, self.force[:, None])
-
-    def rows(self, chosen: Sequence[int] | IntArray | BoolArray) -> DropHistories:
-        """Some of the drops, by number or by a mask."""
-        at = np.arange(len(self))[np.asarray(chosen)]
-        return replace(
-            self,
-            force=self.force[at],
-            deflection=self.deflection[at],
-            station=tuple(self.station[k] for k in at),
-            temperature=None if self.temperature is None else self.temperature[at],
-            thickness={name: values[at] for name, values in self.thickness.items()},
-        )
 
     @property
     def fitted_times(self) -> IntArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -139,11 +139,21 @@ def thicknesses(basins: Measured, unknowns: Unknowns, names: tuple[str, ...]) ->
 
 def models(basins: Basins, unknowns: Unknowns, table: Array, drops: IntArray) -> list[BasinModel]:
     """A model for each set of layers that are present. table: of `thicknesses`. drops: numbers to model."""
-    parts = []
+    return [_model(basins, unknowns, table, *part) for part in by_layers_present(table, drops)]
+
+
+def by_layers_present(table: Array, drops: IntArray) -> Iterator[tuple[IntArray, IntArray]]:
+    """Drops that have the same layers, with the numbers of these layers. table: of `thicknesses`."""
     patterns, kind = np.unique(table[drops] > 0, axis=0, return_inverse=True)
     for number, pattern in enumerate(patterns):
-        parts.append(_model(basins, unknowns, table, drops[kind.ravel() == number], np.flatnonzero(pattern)))
-    return parts
+        yield drops[kind.ravel() == number], np.flatnonzero(pattern)
+
+
+def sought_of(unknowns: Unknowns, present: IntArray) -> tuple[tuple[int, ...], tuple[int, ...]]:
+    """Places among the present layers whose moduli are unknown, and numbers of the unknowns that a model has."""
+    chosen = [k for k, number in enumerate(unknowns.moduli) if number in present]
+    sought = tuple(int(np.flatnonzero(present == unknowns.moduli[k])[0]) for k in chosen)
+    return sought, (*chosen, len(unknowns.moduli)) if unknowns.seeks_depth else tuple(chosen)
 
 
 def _model(basins: Basins, unknowns: Unknowns, table: Array, drops: IntArray, present: IntArray) -> BasinModel:
@@ -161,14 +171,11 @@ def _model(basins: Basins, unknowns: Unknowns, table: Array, drops: IntArray, pr
         plate.nodes, [deep[:, k : k + 1] for k in range(finite.shape[1])], np.tile(poisson, (len(drops), 1)), spring,
         rigid=rigid,
     )  # fmt: skip
-    chosen = [k for k, number in enumerate(unknowns.moduli) if number in present]
-    sought = tuple(int(np.flatnonzero(present == unknowns.moduli[k])[0]) for k in chosen)
-    if unknowns.seeks_depth:
-        chosen.append(len(unknowns.moduli))
+    sought, chosen = sought_of(unknowns, present)
     log_moduli = np.log([modulus_of(layer) for layer in layers])
     above = table[np.ix_(drops, present)][:, :-1].sum(axis=1)
     return BasinModel(
-        drops, tuple(map(int, present)), sought, tuple(chosen), unknowns.seeks_depth, plate, columns,
+        drops, tuple(map(int, present)), sought, chosen, unknowns.seeks_depth, plate, columns,
         basins.load[drops], log_moduli, above,
     )  # fmt: skip
 

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
 from treadload.errors import InputError, positive
-from treadload.kernels.arrays import Array, BoolArray, IntArray
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.response.loads import GridLoad, Load, SurfaceLoad, UniformDisc, UniformRectangle, gather
-from treadload.roads.basins import checked_column, checked_labels
+from treadload.roads.drop_list import DropList, checked_column
 from treadload.tables import finite_list, real_array
 
 # The line of the sensors passes at least this far beside every loaded cell, m.
@@ -64,7 +65,7 @@ Wheels = DualWheels | Load | Sequence[Load]
 
 
 @dataclass(frozen=True, eq=False)
-class MovingBasins:
+class MovingBasins(DropList):
     """Slopes ahead of rolling wheels, a row for each place of the road.
 
     slope: (n, s), -∂u/∂x with u the deflection, down, and x ahead: positive ahead of the wheels, where the surface
@@ -78,6 +79,8 @@ class MovingBasins:
     >>> [f"{slope * 1e6:.0f} µm/m" for slope in basins.slope[0]]
     ['500 µm/m', '300 µm/m']
     """
+
+    by_drop: ClassVar = ("slope", "load", "speed")
 
     slope: Array
     offsets: Array
@@ -110,23 +113,8 @@ class MovingBasins:
                 f"the line of the sensors at {self.side * 1e3:g} mm passes {max(beside, 0.0) * 1e3:g} mm beside the "
                 f"loaded cells; it must pass {GAP * 1e3:g} mm or more beside them, as between dual tires"
             )
-        columns: dict[str, Array | None] = {"position": self.position, "temperature": self.temperature}
-        for name, values in columns.items():
-            columns[name] = None if values is None else checked_column(name, values, count)
-        settled = {
-            "slope": slope, "offsets": offsets,
-            "load": checked_column("load", self.load, count), "speed": checked_column("speed", self.speed, count),
-            "station": checked_labels("station", self.station, count)
-            or tuple(str(number + 1) for number in range(count)),
-            "section": checked_labels("section", self.section, count),
-            "thickness": {
-                name: checked_column(f"thickness of {name}", values, count, least=0.0)
-                for name, values in self.thickness.items()
-            },
-            **columns,
-        }  # fmt: skip
-        for name, value in settled.items():
-            object.__setattr__(self, name, value)
+        load, speed = checked_column("load", self.load, count), checked_column("speed", self.speed, count)
+        self._settle(count, slope=slope, offsets=offsets, load=load, speed=speed)
 
     @classmethod
     def from_velocity(
@@ -151,21 +139,6 @@ class MovingBasins:
         if not total > 0:
             raise InputError(f"the wheels carry {total:g} N together; their loads need a pressure above 0")
         return tuple(_scaled(load, 1 / total) for load in loads)
-
-    def rows(self, chosen: Sequence[int] | IntArray | BoolArray) -> MovingBasins:
-        """Some of the places, by number or by a mask."""
-        at = np.arange(len(self))[np.asarray(chosen)]
-        return replace(
-            self,
-            slope=self.slope[at],
-            load=self.load[at],
-            speed=self.speed[at],
-            station=tuple(self.station[k] for k in at),
-            section=tuple(self.section[k] for k in at) if self.section else (),
-            position=None if self.position is None else self.position[at],
-            temperature=None if self.temperature is None else self.temperature[at],
-            thickness={name: values[at] for name, values in self.thickness.items()},
-        )
 
     @property
     def readings(self) -> Array:

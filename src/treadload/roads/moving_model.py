@@ -11,9 +11,8 @@ import numpy as np
 from treadload.kernels.arrays import Array, ComplexArray, IntArray
 from treadload.kernels.layers.settlement import Columns
 from treadload.kernels.layers.tracks import Track
-from treadload.kernels.layers.wavenumbers import Spectrum, disc_spectrum
-from treadload.response.loads import SurfaceLoad, UniformDisc
-from treadload.roads.model import slopes_over, springs_between
+from treadload.response.moving import spectrum_of
+from treadload.roads.model import by_layers_present, slopes_over, sought_of, springs_between
 from treadload.roads.moving_basins import MovingBasins
 from treadload.roads.unknowns import Unknowns, has_memory, modulus_of, poisson_of, relative_modulus
 from treadload.roads.wheel_lines import lines_of
@@ -105,11 +104,7 @@ class MovingModel:
 
 def moving_models(basins: MovingBasins, unknowns: Unknowns, table: Array, drops: IntArray) -> list[MovingModel]:
     """A model for each set of layers that are present. table: of `thicknesses`. drops: numbers to model."""
-    parts = []
-    patterns, kind = np.unique(table[drops] > 0, axis=0, return_inverse=True)
-    for number, pattern in enumerate(patterns):
-        parts.append(_model(basins, unknowns, table, drops[kind.ravel() == number], np.flatnonzero(pattern)))
-    return parts
+    return [_model(basins, unknowns, table, *part) for part in by_layers_present(table, drops)]
 
 
 def _model(basins: MovingBasins, unknowns: Unknowns, table: Array, drops: IntArray, present: IntArray) -> MovingModel:
@@ -122,26 +117,16 @@ def _model(basins: MovingBasins, unknowns: Unknowns, table: Array, drops: IntArr
         [spectrum_of(load) for load in loads],
         lines_of(loads, basins.side), (min(first), max(last)), basins.offsets, basins.side, thinnest,
     )  # fmt: skip
-    chosen = [k for k, number in enumerate(unknowns.moduli) if number in present]
-    sought = tuple(int(np.flatnonzero(present == unknowns.moduli[k])[0]) for k in chosen)
-    if unknowns.seeks_depth:
-        chosen.append(len(unknowns.moduli))
+    sought, chosen = sought_of(unknowns, present)
     moduli, track = _moduli(basins, unknowns, drops, present, sought, track)
     finite = deep[:, : len(present) - (0 if rigid else 1)]
     if (finite == finite[:1]).all():
         finite = finite[:1]
     return MovingModel(
-        drops, tuple(map(int, present)), sought, tuple(chosen), unknowns.seeks_depth, track, moduli, finite,
+        drops, tuple(map(int, present)), sought, chosen, unknowns.seeks_depth, track, moduli, finite,
         np.array([poisson_of(road.layers[number]) for number in present]),
         springs_between(road, present), rigid, basins.load[drops],
     )  # fmt: skip
-
-
-def spectrum_of(load: SurfaceLoad) -> Spectrum:
-    """Transform of a load."""
-    if isinstance(load, UniformDisc):
-        return disc_spectrum(load.radius, load.pressure, load.x, load.y)
-    return load.spectrum
 
 
 def _moduli(

@@ -87,7 +87,7 @@ class Fitted:
     """Fits of the drops of a model. All over (n, ...).
 
     x: logarithms of the unknowns (n, p). deflection: (n, s), m. slopes: (n, s, p) over ln. at_bound: -1, 0, 1 (n, p).
-    converged: (n,). steps: of the longest search (n,). rival: another minimum (n, p), NaN where there is none;
+    converged: (n,). rival: another minimum (n, p), NaN where there is none;
     gap: by how much its sum of squares is larger (n,).
     """
 
@@ -96,7 +96,6 @@ class Fitted:
     slopes: Array
     at_bound: Array
     converged: BoolArray
-    steps: Array
     rival: Array
     gap: Array
 
@@ -204,7 +203,6 @@ def _fit_block(model: Model, target: Target, x: Array) -> Fitted:
     cost = (residual**2).sum(axis=-1)
     damping = np.full((n, starts), 1e-2)
     running = np.ones((n, starts), bool)
-    steps = np.zeros((n, starts), int)
     for _ in range(_MOST):
         drops = np.flatnonzero(running.any(axis=1))
         if not len(drops):
@@ -224,7 +222,6 @@ def _fit_block(model: Model, target: Target, x: Array) -> Fitted:
         places = drops[rows], columns
         x[places], deflection[places], slopes[places] = trial[better], new[better], new_slopes[better]
         residual[places], cost[places] = apart[better], square[better]
-        steps[drops] += running[drops]
         damping[drops] = np.where(better, np.maximum(damping[drops] / 8, 1e-14), damping[drops] * 4)
         running[drops] &= ~(small | (damping[drops] > _STUCK) | (cost[drops] < _ZERO))
     best = cost.argmin(axis=1)
@@ -239,9 +236,7 @@ def _fit_block(model: Model, target: Target, x: Array) -> Fitted:
     next_best = rivals.argmin(axis=1)
     gap = rivals[rows, next_best] - cost[rows, best]
     rival = np.where(np.isfinite(gap)[:, None], x[rows, next_best], np.nan)
-    return Fitted(
-        at, deflection[rows, best], slopes[rows, best], side, ~running[rows, best], steps.max(axis=1), rival, gap
-    )
+    return Fitted(at, deflection[rows, best], slopes[rows, best], side, ~running[rows, best], rival, gap)
 
 
 def _step(model: Model, target: Target, x: Array, residual: Array, slopes: Array, damping: Array) -> Array:

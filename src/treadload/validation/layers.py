@@ -20,7 +20,6 @@ from treadload.validation.waves import wave_checks
 _STRESS = tuple(f"stress_{c}" for c in ("xx", "yy", "zz", "xy", "xz", "yz"))
 _STRAIN = tuple(f"strain_{c}" for c in ("xx", "yy", "zz", "xy", "xz", "yz"))
 _MOVED = tuple(f"displacement_{c}" for c in "xyz")
-_NAMES = (*_STRESS, *_STRAIN, *_MOVED)
 # The French reference axle: 2 x 32.5 kN.
 _TWIN = (UniformDisc(0.125, 0.662e6), UniformDisc(0.125, 0.662e6, 0.375))
 # As printed: stress, MPa, at the surface, strain across at the first interface, strain down below both, microstrain,

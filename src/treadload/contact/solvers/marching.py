@@ -80,15 +80,12 @@ class State:
 
     stage: the step. pressure: (ny, nx), Pa. tangential: shear on body 1, slip over the step, m, and the rigid
     displacement that was not known, m. normal: the normal contact, None where the pressure was given.
-    rounds: of the coupling between pressure and shear. change: of the pressure in the last, relative.
     """
 
     stage: Stage
     pressure: Array
     tangential: TangentialSolution
     normal: NormalSolution | None = None
-    rounds: int = 1
-    change: float = 0.0
 
     @property
     def displaced(self) -> tuple[float, float]:
@@ -104,13 +101,12 @@ class State:
 class TransientSolution:
     """States at the ends of all steps of a history, or of the last alone.
 
-    rigid: (n, 2) displacements that were not known, m. travel: (n,) of every step, m. forces: (n, 2) on body 1, N.
+    rigid: (n, 2) displacements that were not known, m. travel: (n,) of every step, m.
     states: those that were kept.
     """
 
     rigid: Array
     travel: Array
-    forces: Array
     states: tuple[State, ...] = field(repr=False)
 
     @property
@@ -147,12 +143,10 @@ def roll_transient(
     if keep not in ("all", "last"):
         raise InputError(f'keep must be "all" or "last", got {keep!r}')
     states: list[State] = []
-    rigid, travel, forces = [], [], []
-    cell = influence.dx * influence.dy
+    rigid, travel = [], []
     for number, state in enumerate(march(influence, stages, gap=gap, before=before, tolerance=tolerance), 1):
         rigid.append(state.displaced)
         travel.append(state.stage.travel)
-        forces.append(state.tangential.shear.sum((1, 2)) * cell)
         if keep == "last":
             states.clear()
         states.append(state)
@@ -160,7 +154,7 @@ def roll_transient(
             progress(number)
     if not states:
         raise InputError("a history needs at least one step, got none")
-    return TransientSolution(np.array(rigid), np.array(travel), np.array(forces), tuple(states))
+    return TransientSolution(np.array(rigid), np.array(travel), tuple(states))
 
 
 def march(
@@ -268,7 +262,7 @@ def _press(
         newton, products = newton + tangential.newton, products + tangential.products
         counted = replace(tangential, newton=newton, products=products)
         if not coupled:
-            return State(stage, normal.pressure, counted, normal, rounds, 0.0)
+            return State(stage, normal.pressure, counted, normal)
         opening = here.gap(tangential.shear)
         fitting = normal.under(gap + opening, opening - offset, loaded=stage.load is not None)
         if rounds == _SLOW:
@@ -278,7 +272,7 @@ def _press(
         normal = _normal(influence, gap + offset, stage, before, _SHARE * within)
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
         if max(change, fitting.residual) <= tolerance:
-            return State(stage, before, counted, fitting, rounds, change)
+            return State(stage, before, counted, fitting)
         if change <= tolerance:
             within *= _TIGHTER
         start = tangential

@@ -24,14 +24,14 @@ CORES = (
     "bitumen, no wearing course)"
 )
 """Where the numbers of the aged line come from."""
-CORE_EPSILON_6, CORE_SLOPE, CORE_SCATTER = 123e-6, -0.342, 0.44
-"""ε₆ and b of the old cores by strain (stress over initial stiffness), and the scatter of log₁₀ N about it."""
+CORE_EPSILON_6, CORE_SLOPE = 123e-6, -0.342
+"""ε₆ and b of the old cores by strain (stress over initial stiffness); log₁₀ N scatters by 0.44 about this line."""
 CORE_AGE, CORE_AIR = 32.0, 10.0
 """Median age of the cores, years, and the mean air of their coast, °C (assumed): where the hardening is 1."""
 # At which hardening is compared, °C: the middle of what roads see.
 _COMPARED = 20.0
-# Strength of the cores in bending, Pa, without voids; its fall with voids, per unit of volume; the scatter of ln.
-_STRENGTH, _BY_VOIDS, STRENGTH_SCATTER = 10.3e6, 13.0, 0.27
+# Strength of the cores in bending, Pa, without voids; its fall with voids, per unit of volume.
+_STRENGTH, _BY_VOIDS = 10.3e6, 13.0
 # Fall of the cores' initial stiffness with voids, per unit of volume.
 _STIFFNESS_BY_VOIDS = 5.3
 _FRESH_SLOPE = -0.2

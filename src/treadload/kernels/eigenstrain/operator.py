@@ -188,7 +188,7 @@ def track(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, s
     return _bars(rows, grid, single=single)
 
 
-def endless(grid: Grid, shear: float, poisson: float, *, averaged: bool = False, single: bool = False) -> Operator:
+def endless(grid: Grid, shear: float, poisson: float, *, averaged: bool = False) -> Operator:
     """Stress (6, nz, ny, 1), Pa, of eigenstrain (6, nz, ny, 1) in bars along x without ends; nx is not read."""
     of = coefficients(poisson)
     x, y = _FAR * _size(grid) * np.array([-1.0, 1.0]), _edges(grid.ny, grid.dy)[:, None]
@@ -201,7 +201,7 @@ def endless(grid: Grid, shear: float, poisson: float, *, averaged: bool = False,
         return shear * kernels
 
     plane = Grid(1, grid.ny, grid.dx, grid.dy, grid.edges)
-    return _even(rows, plane, len(grid.depths), (_ODD_X, _ODD_Y), single=single)
+    return _even(rows, plane, len(grid.depths), (_ODD_X, _ODD_Y))
 
 
 def moved_by_cells(grid: Grid, poisson: float) -> Operator:
@@ -325,7 +325,7 @@ def _bars(rows: Rows, grid: Grid, *, single: bool = False) -> Operator:
     return Operator(grid.shape, 6, matrices, (phase[0], phase[1]), signs, (2 * ly, 2 * lx))
 
 
-def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], *, single: bool = False) -> Operator:
+def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray]) -> Operator:
     """Of kernels that are even or odd along y alone, given at offsets 0, -1, … 1 along x: complex matrices."""
     _, ny, nx = grid.shape
     ly, lx = next_fast_len(ny), next_fast_len(nx)
@@ -344,10 +344,9 @@ def _any(rows: Rows, grid: Grid, depths: int, odd: tuple[BoolArray, BoolArray], 
             result[row, column] = -1j * both if odd_y else both
         return result
 
-    kind = np.float32 if single else np.float64
-    numbers = np.dtype(np.complex64 if single else np.complex128)
-    matrices = _gathered(rows, transformed, grid, depths, len(odd[0]), (ly + 1, lx + 1), numbers)
-    return Operator(grid.shape, len(odd[0]), matrices, None, _signs(odd[1], depths, grid, kind), (2 * ly, 2 * lx))
+    matrices = _gathered(rows, transformed, grid, depths, len(odd[0]), (ly + 1, lx + 1), np.dtype(np.complex128))
+    signs = _signs(odd[1], depths, grid, np.float64)
+    return Operator(grid.shape, len(odd[0]), matrices, None, signs, (2 * ly, 2 * lx))
 
 
 def _gathered(

@@ -84,7 +84,6 @@ class _Integrals:
     zi101, zi111: times z, those that only isotropy needs, at real depths.
     """
 
-    i000: Array
     i100: Array
     i110_r: Array
     i10m: Array
@@ -131,7 +130,7 @@ class _Integrals:
         i11m_r, i110_r = np.where(near, axis, i11m_r), np.where(near, axis_1, i110_r)
         zi111 = np.where(near, r * z * 1.5 * a * z / s0**5, zi111)
         i10m = a * i000 - r * r * i110_r - z * i100
-        return cls(i000, i100, i110_r, i10m, i11m_r, zi101, zi111)
+        return cls(i100, i110_r, i10m, i11m_r, zi101, zi111)
 
 
 def _third(rest: Numbers, p: Numbers) -> Numbers:

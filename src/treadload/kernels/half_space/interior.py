@@ -1,8 +1,8 @@
 """Stress and displacement of a half-space under uniformly loaded rectangles, at the surface and at any depth.
 
 A load is an array (3, ny, nx) of pressure, shear along x and shear along y exerted on the body, Pa, uniform on cells
-of dx by dy. Stress is an array (6, ...) in the order of `COMPONENTS`, tension positive; displacement (3, ...) goes
-along x, y and z. z points into the body, so that at z = 0 stress_zz = -pressure and stress_xz = -traction_x.
+of dx by dy. Stress is an array (6, ...): xx, yy, zz, xy, xz, yz, tension positive; displacement (3, ...) goes along
+x, y and z. z points into the body, so that at z = 0 stress_zz = -pressure and stress_xz = -traction_x.
 
 The field is that of the cells, exactly. Between the surface and half a cell of depth it shows the steps between
 them, with a logarithm in the distance to an edge across which shear steps. At the surface this leaves an error O(dx)
@@ -25,7 +25,6 @@ from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space.corners import SNAP, at_corners, is_surface, snapped
 from treadload.kernels.half_space.upright import Medium, fields_of, own_share
 
-COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
 _P, _QX, _QY = range(3)
 # Components that have x, and y, once among their directions.

@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 
 from treadload.kernels.arrays import Array, BoolArray, IntArray
+from treadload.kernels.sections.section import SAME, growing, with_middles
 
 Point = tuple[float, float]
 Sides = tuple[float, float, float, float]
@@ -23,8 +24,6 @@ _AT_LEVEL, _LARGEST_UP, _LARGEST = 1 / 5, 1 / 3, 1 / 2
 # Where the element at a wall is split, as a part of it; the first element beside a wall, as a part of the largest.
 _AT_WALL, _BESIDE = 1 / 3, 1 / 2
 # How fast elements grow from a level or a wall.
-_GROWTH = 2.0
-_SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -66,7 +65,7 @@ class Block:
         """The block with elements for cells of dx by dy, m: one each, where walls lie between cells, or more."""
         largest = _LARGEST * self.height
         along, across = (
-            max(1, round(length / cell)) * max(1, math.ceil(cell / largest - _SAME))
+            max(1, round(length / cell)) * max(1, math.ceil(cell / largest - SAME))
             for length, cell in zip(self._lengths, (dx, dy), strict=True)
         )
         return replace(self, parts=(along, across))
@@ -211,7 +210,7 @@ def _levels(height: float, floors: Sides) -> Array:
     for low, high in itertools.pairwise(steps):
         parts = _both_ends(float(high - low), height * _AT_LEVEL, height * _LARGEST_UP)
         edges.append(low + (high - low) * parts[1:])
-    return _with_middles(np.concatenate(edges))
+    return with_middles(np.concatenate(edges))
 
 
 def _lines(around: tuple[float, int, float], largest: float) -> Array:
@@ -229,7 +228,7 @@ def _lines(around: tuple[float, int, float], largest: float) -> Array:
         parts.append((2, _one_end(behind, _BESIDE * largest, largest)))
     lines: list[Point] = []
     for number, edges in parts:
-        fine = _with_middles(edges)
+        fine = with_middles(edges)
         lines += [(number, place) for place in fine[:-1]]
     lines.append((parts[-1][0], 1.0))
     return np.array(lines)
@@ -237,27 +236,14 @@ def _lines(around: tuple[float, int, float], largest: float) -> Array:
 
 def _both_ends(length: float, finest: float, largest: float) -> Array:
     """Edges of elements, from 0 to 1, that grow from both ends of a length, m; one element where it is short."""
-    if length <= finest * (1 + _SAME):
+    if length <= finest * (1 + SAME):
         return np.array([0.0, 1.0])
-    sizes = _growing(0.5 * length, finest, largest)
+    sizes = growing(0.5 * length, finest, largest)
     half = np.concatenate([[0.0], np.cumsum(sizes)]) / (2 * sum(sizes))
     return np.concatenate([half, 1 - half[-2::-1]])
 
 
 def _one_end(length: float, finest: float, largest: float) -> Array:
     """Edges of elements, from 0 to 1, that grow from the first end of a length, m."""
-    sizes = _growing(length, finest, largest)
+    sizes = growing(length, finest, largest)
     return np.concatenate([[0.0], np.cumsum(sizes)]) / sum(sizes)
-
-
-def _growing(length: float, finest: float, largest: float) -> list[float]:
-    sizes: list[float] = []
-    while sum(sizes) < length * (1 - _SAME):
-        sizes.append(min(finest * _GROWTH ** len(sizes), largest))
-    return sizes
-
-
-def _with_middles(edges: Array) -> Array:
-    nodes = np.empty(2 * edges.size - 1)
-    nodes[::2], nodes[1::2] = edges, 0.5 * (edges[1:] + edges[:-1])
-    return nodes

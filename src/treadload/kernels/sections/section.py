@@ -21,7 +21,7 @@ from treadload.kernels.arrays import Array
 _AT_WALL, _AT_LEVEL, _LARGEST, _GROWTH = 1 / 60, 1 / 25, 1 / 5, 2.0
 # The largest element over a cell: shear and pressure of a cell jump at its edges.
 _PER_CELL = 0.7
-_SAME = 1e-9
+SAME = 1e-9
 
 
 @dataclass(frozen=True)
@@ -57,13 +57,13 @@ class Section:
             raise ValueError(f"ends and draft must not be negative, got {self.ends} and {self.draft}")
         feet = self.feet
         for (_, right), (left, _) in itertools.pairwise(feet):
-            if right >= left - _SAME:
+            if right >= left - SAME:
                 raise ValueError(f"the walls of a groove meet above its floor, at y = {left:g} m")
 
     def for_cells(self, width: float) -> Section:
         """The section with elements fine enough for cells of this width, m."""
         largest = _LARGEST * self.height
-        return replace(self, halvings=max(0, math.ceil(math.log2(largest / (_PER_CELL * width)) - _SAME)))
+        return replace(self, halvings=max(0, math.ceil(math.log2(largest / (_PER_CELL * width)) - SAME)))
 
     @property
     def mirrored(self) -> Section:
@@ -134,10 +134,10 @@ class Section:
         """Places of mesh lines, ends and middles of columns, as parts of a width, m, finer at walls."""
         largest = _LARGEST / 2**self.halvings
         if all(walls):
-            return _with_middles(_from_both_ends(width / self.height, _AT_WALL, largest))
+            return with_middles(_from_both_ends(width / self.height, _AT_WALL, largest))
         edges = _graded(width / self.height, _AT_WALL, largest)
         edges /= edges[-1]
-        return _with_middles(edges if walls[0] else 1 - edges[::-1])
+        return with_middles(edges if walls[0] else 1 - edges[::-1])
 
 
 @dataclass(frozen=True)
@@ -170,7 +170,7 @@ def _levels(height: float, floors: tuple[float, ...]) -> Array:
     edges = [np.zeros(1)]
     for low, high in itertools.pairwise(steps):
         edges.append(low + (high - low) * _from_both_ends((high - low) / height, _AT_LEVEL)[1:])
-    return _with_middles(np.concatenate(edges))
+    return with_middles(np.concatenate(edges))
 
 
 def _from_both_ends(length: float, finest: float, largest: float = _LARGEST) -> Array:
@@ -181,14 +181,21 @@ def _from_both_ends(length: float, finest: float, largest: float = _LARGEST) -> 
 
 def _graded(length: float, finest: float, largest: float) -> Array:
     """Edges of elements from 0 to a length, over the height, that grow from a finest one at 0."""
-    sizes: list[float] = []
-    while sum(sizes) < length * (1 - _SAME):
-        sizes.append(min(finest * _GROWTH ** len(sizes), largest))
+    sizes = growing(length, finest, largest)
     edges = np.concatenate([[0.0], np.cumsum(sizes)])
     return np.asarray(edges * length / edges[-1])
 
 
-def _with_middles(edges: Array) -> Array:
+def growing(length: float, finest: float, largest: float) -> list[float]:
+    """Sizes of elements that grow from the finest to the largest and reach a length or a little more."""
+    sizes: list[float] = []
+    while sum(sizes) < length * (1 - SAME):
+        sizes.append(min(finest * _GROWTH ** len(sizes), largest))
+    return sizes
+
+
+def with_middles(edges: Array) -> Array:
+    """Edges of elements and their middles, in order."""
     nodes = np.empty(2 * edges.size - 1)
     nodes[::2], nodes[1::2] = edges, 0.5 * (edges[1:] + edges[:-1])
     return nodes

@@ -26,9 +26,8 @@ MOST_ROWS = 64
 
 @dataclass(frozen=True)
 class Course:
-    """A plastic layer of a road: its number and material, and its top and bottom, m."""
+    """A plastic layer of a road: its material, and its top and bottom, m."""
 
-    number: int
     material: ElastoPlastic
     top: float
     bottom: float
@@ -38,7 +37,7 @@ def courses(road: Pavement) -> tuple[Course, ...]:
     """The layers of a road that can yield, from the surface down."""
     ends = [0.0, *road.interfaces.tolist(), math.inf]
     return tuple(
-        Course(number, layer.material, ends[number], ends[number + 1])
+        Course(layer.material, ends[number], ends[number + 1])
         for number, layer in enumerate(road.layers)
         if isinstance(layer.material, ElastoPlastic)
     )

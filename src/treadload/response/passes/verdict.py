@@ -13,7 +13,6 @@ from treadload.response.passes.melan import melan_factor, unbounded
 from treadload.response.passes.steady import NoSteadyPassError, Track, roll
 
 Kind = Literal["elastic", "shakedown", "cyclic", "ratchetting"]
-KINDS: tuple[Kind, ...] = ("elastic", "shakedown", "cyclic", "ratchetting")
 
 # Of the strain at yield, that a pass adds: below the first it is elastic, below the second it has shaken down.
 _ELASTIC, _SHAKEN = 1e-6, 0.01

@@ -182,7 +182,7 @@ def _phase(
         if isinstance(calibration, CameraProjector):
             unwrapped = unwrap_by_periods(phases, [patterns[0].fringes], deviations)
             return unwrapped, unwrapped.phase, noise_phase
-        return Unwrapped(phases[0], 0, (patterns[0].fringes,), 0.0), phases[0], noise_phase
+        return Unwrapped(phases[0], 0, 0.0), phases[0], noise_phase
     unwrapped = unwrap_by_periods(phases, [pattern.fringes for pattern in patterns], deviations)
     if unwrapped.margin > _CLOSE:
         record.warnings.append(

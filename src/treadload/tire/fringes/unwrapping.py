@@ -26,13 +26,12 @@ SURE = 0.8
 class Unwrapped:
     """phase: rad, counted from the projector's edge; NaN where not known. unsure: pixels given up for their order.
 
-    rungs: fringes over the projector, from the coarsest, synthetic ones among them. margin: of the worst rung,
-    standard deviation of the miss over the half turn at which the order is wrong, at the median pixel.
+    margin: of the worst of the frequencies, measured and synthetic, standard deviation of the miss over the half turn
+    at which the order is wrong, at the median pixel.
     """
 
     phase: Array
     unsure: int
-    rungs: tuple[float, ...]
     margin: float
 
 
@@ -71,9 +70,7 @@ def unwrap_by_periods(phases: Sequence[Array], fringes: Sequence[float], deviati
         finite = spread[np.isfinite(spread)]
         margin = max(margin, float(np.median(finite))) if finite.size else margin
         phase, deviation = high.phase + TURN * order, high.deviation
-    return Unwrapped(
-        np.where(unsure, np.nan, phase), int(unsure.sum()), tuple(rung.fringes for rung in rungs), margin
-    )
+    return Unwrapped(np.where(unsure, np.nan, phase), int(unsure.sum()), margin)
 
 
 def _ladder(patterns: list[_Rung]) -> list[_Rung]:

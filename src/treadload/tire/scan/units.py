@@ -7,19 +7,12 @@ from treadload.errors import InputError
 UNITS = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "inch": 0.0254}
 _UNIT_NAMES = {
     **{name: name for name in UNITS},
-    **{"metre": "m", "meter": "m", "metres": "m", "meters": "m", "millimetre": "mm", "millimeter": "mm"},
-    **{
-        "millimetres": "mm",
-        "millimeters": "mm",
-        "centimetre": "cm",
-        "centimeter": "cm",
-        "in": "inch",
-        "inches": "inch",
-    },
-}
+    "metre": "m", "meter": "m", "metres": "m", "meters": "m",
+    "millimetre": "mm", "millimeter": "mm", "millimetres": "mm", "millimeters": "mm",
+    "centimetre": "cm", "centimeter": "cm", "in": "inch", "inches": "inch",
+}  # fmt: skip
 GUESSED_DIAMETERS = (0.4, 1.6)
 POSSIBLE_DIAMETERS = (0.2, 4.5)
-POSSIBLE_PROPORTIONS = (0.1, 0.8)  # width over outer diameter
 UNIT_MATCH = 0.03
 
 
