@@ -52,7 +52,7 @@ def factor_of(name: str, named: object, si: str, units: Mapping[str, str], *, wh
     Raises InputError with the remedy.
     """
     example = f'units={{"{name}": "{_EXAMPLE[si]}"}}'
-    wanted = factor_asked(name, units[name], si) if name in units else None
+    wanted = factor_of_argument(name, units[name], si) if name in units else None
     if named is None or (isinstance(named, str) and not named.strip()):
         if wanted is not None:
             return wanted
@@ -75,8 +75,8 @@ def factor_of(name: str, named: object, si: str, units: Mapping[str, str], *, wh
     return stated if stated is not None else wanted or 1.0
 
 
-def factor_asked(name: str, unit: object, si: str) -> float:
-    """What a number is multiplied by whose unit the caller gave. Raises InputError."""
+def factor_of_argument(name: str, unit: object, si: str) -> float:
+    """Factor to SI units of a number whose unit is an argument. Raises InputError."""
     try:
         if isinstance(unit, str):
             return factor(unit, si)

@@ -12,7 +12,7 @@ from treadload.case.schema import read_case
 from treadload.errors import InputError, WriteError
 from treadload.files import check_writable, read_tree, write_all, write_whole
 from treadload.tire.fringes import read_fringes
-from treadload.tire.scan.laser_file import asked_of, is_laser
+from treadload.tire.scan.laser_file import is_laser, read_laser_file
 
 
 def test_a_file_appears_whole(tmp_path):
@@ -180,7 +180,7 @@ def test_a_file_that_changes_while_it_is_read_is_refused(tmp_path, monkeypatch):
         (read_case, "the TOML file of a case"),
         (tl.tire.TreadProfile.from_toml, "the TOML file of a tread profile"),
         (read_fringes, "a TOML file that names the pictures"),
-        (asked_of, r"a TOML file with a table \[laser\]"),
+        (read_laser_file, r"a TOML file with a table \[laser\]"),
     ],
 )
 def test_what_is_no_text_is_refused_with_the_byte_and_what_to_give(read, wanted, tmp_path):

@@ -69,8 +69,8 @@ def basin_rows(result: Backcalculation, drop: int) -> list[PageRow]:
     if text := str(at["reason"].item()):
         rows.append(_row("reason", "reason", text, "Drop"))
     for layer in (str(name) for name in at["layer_name"].to_numpy()):
-        one_layer = at.isel(layer_name=list(map(str, at["layer_name"].to_numpy())).index(layer))
-        modulus, deep = float(one_layer["fitted_modulus"]), float(one_layer["layer_thickness"])
+        layer_data = at.isel(layer_name=list(map(str, at["layer_name"].to_numpy())).index(layer))
+        modulus, deep = float(layer_data["fitted_modulus"]), float(layer_data["layer_thickness"])
         if not math.isfinite(modulus):
             continue
         low, high = result.interval(number, layer)
@@ -81,7 +81,7 @@ def basin_rows(result: Backcalculation, drop: int) -> list[PageRow]:
         )
         rows.append(_row(f"modulus:{layer}", layer, modulus_in_words(modulus), "Moduli"))
         rows.append(_row(f"interval:{layer}", "", bars, "Moduli"))
-        factor = float(one_layer["law_factor"]) if "law_factor" in one_layer else math.nan
+        factor = float(layer_data["law_factor"]) if "law_factor" in layer_data else math.nan
         if math.isfinite(factor):
             text = f"{factor:.3g} times its law; the modulus is that at θ = 150 kPa, q = 75 kPa"
             rows.append(_row(f"law:{layer}", "", text, "Moduli"))

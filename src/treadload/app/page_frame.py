@@ -186,8 +186,8 @@ class Page:
             return
         form = self.now.form
         self._before.text = f"Results of the case before: {self.now.title}"
-        is_other = form is not None and form.table != self.form.table
-        stale = "all" if is_other else self.stale_part()
+        is_another_case = form is not None and form.table != self.form.table
+        stale = "all" if is_another_case else self.stale_part()
         self.js("treadloadStale", stale, typed)
 
     def stale_part(self) -> str:

@@ -51,7 +51,7 @@ class Evaluations:
             check_writable(self._state)
             if self._state.exists():
                 self.readings_by_task = _read(self._state, problem)
-        self.found_before = len(self.readings_by_task)
+        self.evaluated_before = len(self.readings_by_task)
 
     @contextmanager
     def open(self) -> Iterator[Evaluations]:

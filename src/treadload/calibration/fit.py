@@ -133,7 +133,7 @@ def calibrate(
     stats = {
         "evaluations": int(solution_of.nfev),
         "contacts": solves.solved,
-        "contacts_from_state": solves.found_before,
+        "contacts_from_state": solves.evaluated_before,
         "optimality": float(solution_of.optimality),
         "seconds": time.perf_counter() - began,
     }

@@ -50,12 +50,12 @@ class CriterionTable(TargetTable):
             return law
         length = MATERIAL_LENGTH if table.mean_over is None else table.mean_over
         # A law that leaves open what it reads has taken `reads` itself.
-        reads = None if "reads" in self.hints else quantity if self.told_quantity else None
+        reads = None if "reads" in self.hints else quantity if self.states_quantity else None
         return Judge(name, law, number, table.place, table.strain, length, reads, table.search_to)
 
     @property
-    def told_quantity(self) -> bool:
-        """True if the table states what is read."""
+    def states_quantity(self) -> bool:
+        """True if the table states the quantity that the law reads."""
         table: Any = self
         return table.reads is not None
 
@@ -63,7 +63,7 @@ class CriterionTable(TargetTable):
     def quantity(self) -> Quantity | None:
         """What is read: as the table states it, or its law; None where only the built law determines it."""
         table: Any = self
-        if self.told_quantity:
+        if self.states_quantity:
             quantity: Quantity = _READS.build(table.reads)
             return quantity
         reads = (getattr(kind, "reads", None) for kind in made_by(type(self).target))

@@ -161,9 +161,9 @@ def scan(
 
 def _turned(file: Path) -> bool | None:
     """Whether a wheel turned before the laser whose lines a TOML file names; None where it names none."""
-    from treadload.tire.scan.laser_file import asked_of, is_laser
+    from treadload.tire.scan.laser_file import is_laser, read_laser_file
 
-    return asked_of(file).turns if is_laser(file) else None
+    return read_laser_file(file).turns if is_laser(file) else None
 
 
 def _piece(file: Path, output: Path | None, figure: Path | None, *, quiet: bool) -> None:

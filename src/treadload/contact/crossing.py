@@ -23,11 +23,10 @@ from treadload.contact.bodies.choose import Pair, road_surface, surface_of
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.contact_grid import cell_across, check_border, place
 from treadload.contact.crossing_fields import STRIDE, Moved, Scene, caveats, fields_of
-from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.relief import above, check_step
 from treadload.contact.rib_sections import prepare_ribs
-from treadload.contact.rolling_state import Rolling
+from treadload.contact.rolling_state import Rolling, bound_on
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
@@ -254,9 +253,7 @@ def _sliding(scene: Scene, contacts: Sequence[NormalSolution], tolerance: float)
     """Shear, slip and work of a wheel that rolls from its first position to its last under known pressures."""
     grid, rolling, law = scene.grid, scene.rolling, scene.rolling.law
 
-    def bound(pressure: Array) -> Array:
-        still = np.zeros((2, *pressure.shape))
-        return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
+    bound = bound_on(grid, rolling)
 
     def stages() -> Iterator[Stage]:
         yield Stage(np.zeros((2, 1, 1)), (0.0, 0.0), bound, 0.0, law.axes, pressure=contacts[0].pressure)

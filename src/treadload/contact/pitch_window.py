@@ -15,8 +15,7 @@ import numpy as np
 
 from treadload.contact.bodies.blocks import BlockInfluence, block_influence, on_blocks
 from treadload.contact.bodies.body import Body
-from treadload.contact.friction.laws import Interface
-from treadload.contact.rolling_state import Rolling
+from treadload.contact.rolling_state import Rolling, bound_on
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.grid import Grid
@@ -70,7 +69,7 @@ class Window:
 
     def stage(self, rolling: Rolling, axle: float, travel: float) -> Stage:
         """The step that ends with the axle at a place, m, after a travel, m; of none, the wheel stands."""
-        grid, law = self.seen_from(axle), rolling.law
+        grid = self.seen_from(axle)
         rigid: Array = np.zeros((2, 1, 1))
         forces: tuple[float | None, float | None] = (0.0, 0.0)
         if travel:
@@ -79,13 +78,9 @@ class Window:
             slip[0] += self.tire.row_slip(grid)
             rigid, forces = slip * travel, rolling.forces
 
-        def bound(pressure: Array) -> Array:
-            still = np.zeros((2, *pressure.shape))
-            return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
-
         return Stage(
-            rigid, forces, bound, axes=law.axes, load=rolling.normal_load, approach=rolling.approach,
-            gap=self.gap(axle),
+            rigid, forces, bound_on(grid, rolling), axes=rolling.law.axes, load=rolling.normal_load,
+            approach=rolling.approach, gap=self.gap(axle),
         )  # fmt: skip
 
     def stand(self, rolling: Rolling, tolerance: float) -> State:

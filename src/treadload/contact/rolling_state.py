@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 
-from treadload.contact.friction.laws import Coulomb, FrictionLaw, largest_force, law_of
+import numpy as np
+
+from treadload.contact.friction.laws import Coulomb, FrictionLaw, Interface, largest_force, law_of
 from treadload.describing import as_call
 from treadload.errors import InputError, positive, within
+from treadload.grid import Grid
+from treadload.kernels.arrays import Array
 from treadload.units import Curvature, Force, Length, Number, Speed
 
 # Name, unit, and what is usual, of what must lie above zero.
@@ -137,3 +142,13 @@ class Rolling:
         return ", ".join(parts)
 
     __repr__ = as_call
+
+
+def bound_on(grid: Grid, rolling: Rolling) -> Callable[[Array], Array]:
+    """Shear, Pa, that friction carries on cells under a pressure (ny, nx), Pa, at which nothing slides yet."""
+
+    def bound(pressure: Array) -> Array:
+        still = np.zeros((2, *pressure.shape))
+        return rolling.law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
+
+    return bound

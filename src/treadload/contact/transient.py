@@ -21,10 +21,9 @@ from treadload.contact.bodies.choose import Pair, RoadCompliance, road_surface, 
 from treadload.contact.bounds import check_ribs
 from treadload.contact.contact_grid import cell_across, check_border, place
 from treadload.contact.fields import Scene, tractions
-from treadload.contact.friction.laws import Interface
 from treadload.contact.numerics import Numerics, NumericsKeys
 from treadload.contact.rib_sections import prepare_ribs
-from treadload.contact.rolling_state import Rolling
+from treadload.contact.rolling_state import Rolling, bound_on
 from treadload.contact.snapshot import contact_at, scalars_of
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.marching import Stage, State, march
@@ -199,13 +198,10 @@ def standing(scene: Scene, rolling: Rolling) -> Stage:
 
 def stage_of(scene: Scene, rolling: Rolling, rigid: Array, forces: Forces, travel: float = 0.0) -> Stage:
     """A step under the load and the friction of a rolling state; the rest as in `Stage`."""
-    law, grid = rolling.law, scene.grid
-
-    def bound(pressure: Array) -> Array:
-        still = np.zeros((2, *pressure.shape))
-        return law.bound(Interface(pressure, still, grid.x, grid.y, grid.dx, rolling.speed))
-
-    return Stage(rigid, forces, bound, travel, law.axes, load=rolling.normal_load, approach=rolling.approach)
+    return Stage(
+        rigid, forces, bound_on(scene.grid, rolling), travel, rolling.law.axes,
+        load=rolling.normal_load, approach=rolling.approach,
+    )  # fmt: skip
 
 
 def run(scene: Scene, stages: Sequence[Stage], tolerance: float) -> Iterator[State]:

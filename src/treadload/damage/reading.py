@@ -20,6 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import on_interface, same_depth
 from treadload.response import Response, solve_response
+from treadload.response.fields import number_of_depth
 from treadload.response.loads import PlacedLoad
 from treadload.response.means import Means
 from treadload.response.superposition import mean_loads
@@ -97,12 +98,8 @@ def check_law(line: PowerLaw) -> None:
 def local_field(response: Source, line: PowerLaw, depth: float) -> xr.Dataset:
     """The points of a response at one of its depths, m, over (depth, y, x). Raises InputError."""
     data = gridded(response)
-    depths = data["depth"].to_numpy()
-    nearest = int(np.argmin(np.abs(depths - depth)))
-    if not same_depth(depths[nearest], depth):
-        listed = ", ".join(f"{d:g}" for d in depths)
-        raise InputError(f"the response has no depth {depth:g} m, it has {listed} m; solve it with that depth")
-    _check_place(data, line, float(depths[nearest]))
+    nearest = number_of_depth(data, depth)
+    _check_place(data, line, float(data["depth"][nearest]))
     return data.isel(depth=[nearest])
 
 

@@ -108,13 +108,13 @@ def _compliance(contact: Contact) -> RoadCompliance:
 
 
 def check_two_grids(tire: Tire | None) -> None:
-    """Raise InputError for what can be solved on its own cells only; None stands for a recorded footprint."""
-    if what := known_on_its_cells(tire):
+    """Raise InputError for what exists on fixed cells only; None stands for a recorded footprint."""
+    if what := only_on_fixed_cells(tire):
         raise InputError(f"an error estimate solves the contact on two grids, and {what} has one; leave it out")
 
 
-def known_on_its_cells(tire: Tire | None) -> str:
-    """What is known on its own cells only, in words; empty for what others know too. None: a recorded footprint."""
+def only_on_fixed_cells(tire: Tire | None) -> str:
+    """What exists on fixed cells only, in words; empty for a tread of any cells. None: a recorded footprint."""
     if tire is None:
         return "a recorded footprint"
     return "" if tire.fixed_grid is None else "a height map"

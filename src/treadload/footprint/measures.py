@@ -56,8 +56,8 @@ def measure(pressure: Array, x: Array, y: Array, dx: float, dy: float, angle: fl
     if not loaded.any():
         nan = float("nan")
         return Measures(0.0, 0.0, 0.0, 0.0, 0.0, nan, 0.0, nan, nan, nan, nan)
-    weights, own_x, own_y = pressure[loaded], along_cells[loaded], across_cells[loaded]
-    along, across = turn(own_x, own_y, angle)
+    weights, loaded_x, loaded_y = pressure[loaded], along_cells[loaded], across_cells[loaded]
+    along, across = turn(loaded_x, loaded_y, angle)
     total = float(weights.sum())
     centre_x, centre_y = (float((weights * at).sum() / total) for at in (along, across))
     spread = [
@@ -67,7 +67,7 @@ def measure(pressure: Array, x: Array, y: Array, dx: float, dy: float, angle: fl
     return Measures(
         total * dx * dy,
         net,
-        _outline_area(own_x, own_y, dx, dy),
+        _outline_area(loaded_x, loaded_y, dx, dy),
         float(np.ptp(along)) + dx,
         float(np.ptp(across)) + dy,
         total * dx * dy / net,

@@ -239,8 +239,8 @@ def _assembled(path: Path, header: _Header, frames: Sequence[_Frame], values: Ar
     threshold = header.number("NOISE_THRESHOLD")
     if threshold is not None and not counts:
         # It is in counts; what a count is worth only the law of the sensor tells.
-        own_law = _law(header)
-        threshold = None if own_law is None or law is None else own_law[0] * threshold ** own_law[1] / law[0]
+        header_law = _law(header)
+        threshold = None if header_law is None or law is None else header_law[0] * threshold ** header_law[1] / law[0]
     if counts and law is None:
         warnings.append("its values are raw counts without a calibration in the header")
     notes = [f"{path.name}: Tekscan ASCII", *([f"sensor {kind}"] if (kind := header.text("SENSOR_TYPE")) else [])]

@@ -56,7 +56,7 @@ class Orthotropic(Anisotropic):
             if isinstance(value, bool | str) or not math.isfinite(value):
                 raise InputError(f"{name} must be an angle in rad, got {value!r}; 30° is 0.5236")
             object.__setattr__(self, name, float(value))
-        values = eigenvalues(self._own_compliance())
+        values = eigenvalues(self._compliance_along_axes())
         if not values[0] > _LEAST * values[-1]:
             raise InputError(
                 f"this elasticity is not positive definite: the smallest eigenvalue of its compliance is "
@@ -95,7 +95,7 @@ class Orthotropic(Anisotropic):
     @property
     def stiffness(self) -> Array:
         """(6, 6), Pa, in x, y, z: up to 21 constants, in the order xx, yy, zz, yz, xz, xy of engineering shears."""
-        inverse = np.linalg.inv(self._own_compliance())
+        inverse = np.linalg.inv(self._compliance_along_axes())
         inverse = 0.5 * (inverse + inverse.T)
         if (self.yaw, self.pitch, self.roll) == (0.0, 0.0, 0.0):
             return np.asarray(inverse)
@@ -106,8 +106,8 @@ class Orthotropic(Anisotropic):
         first, two, three = self.moduli
         return math.sqrt(first / two), math.sqrt(first / three), math.sqrt(two / three)
 
-    def _own_compliance(self) -> Array:
-        """(6, 6), 1/Pa, along its own axes."""
+    def _compliance_along_axes(self) -> Array:
+        """(6, 6), 1/Pa, along the axes of the material."""
         (first, two, three), (g_12, g_13, g_23) = self.moduli, self.shear_moduli
         result = np.diag([1 / first, 1 / two, 1 / three, 1 / g_23, 1 / g_13, 1 / g_12])
         for (i, j), ratio, modulus in zip(((0, 1), (0, 2), (1, 2)), self.poisson, (first, first, two), strict=True):

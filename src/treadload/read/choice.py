@@ -222,8 +222,8 @@ def _table_class(choice: Choice | None, entry: Entry) -> type[TargetTable]:
     )
     model.target = staticmethod(target)
     model.entry, model.kinds = entry, choice
-    not_own = {*besides, choice.registry.key} if choice is not None else set()
-    model.hints = {name: hint for name, (hint, _) in fields.items() if name not in not_own}
+    excluded = {*besides, choice.registry.key} if choice is not None else set()
+    model.hints = {name: hint for name, (hint, _) in fields.items() if name not in excluded}
     if choice is not None and choice.finish is not None:
         model.finish = staticmethod(choice.finish)
     table: type[TargetTable] = model

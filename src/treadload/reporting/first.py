@@ -104,10 +104,10 @@ def first_of_response(data: xr.Dataset) -> FirstPage | None:
     """The page of a response on a grid: where each quantity is largest; None where it has none of their fields."""
     if not {"depth", "y", "x"} <= set(data.dims):
         return None
-    rows_found = [
+    quantity_rows = [
         _response_row(quantity, data) for quantity in known_quantities().values() if not quantity.missing(data)
     ]
-    rows = tuple(row for row, _ in rows_found)
+    rows = tuple(row for row, _ in quantity_rows)
     if not rows:
         return None
     solved = [_length("depth", float(z), "g") for z in np.atleast_1d(data["depth"].to_numpy())]
@@ -122,9 +122,8 @@ def first_of_response(data: xr.Dataset) -> FirstPage | None:
         f"Largest of the depths solved, {depths}, at {how}. Extensions are read only where a principal stress is "
         "tensile. No law ranks them: what is calibrated, and for what, is in the last column."
     )
-    heading = (
-        "Predicted cracking by criterion" if any(opens for _, opens in rows_found) else "Largest values by criterion"
-    )
+    any_opens = any(opens for _, opens in quantity_rows)
+    heading = "Predicted cracking by criterion" if any_opens else "Largest values by criterion"
     return FirstPage(heading, "", _RESPONSE, rows, note)
 
 

@@ -10,6 +10,7 @@ import numpy as np
 import xarray as xr
 
 from treadload import variables
+from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import on_interface, same_depth
@@ -127,3 +128,13 @@ def kind_of_points(data: xr.Dataset) -> str:
     if y == 1 and x > 1:
         return "slice_along"
     return "slice_across" if x == 1 and y > 1 else "response"
+
+
+def number_of_depth(data: xr.Dataset, depth: float) -> int:
+    """Number of a depth, m, among those of a response. Raises InputError for a depth that it does not have."""
+    depths = data["depth"].to_numpy()
+    nearest = int(np.argmin(np.abs(depths - depth)))
+    if not same_depth(depths[nearest], depth):
+        listed = ", ".join(f"{level:g}" for level in depths)
+        raise InputError(f"the response has no depth {depth:g} m, it has {listed} m; solve it with that depth")
+    return nearest

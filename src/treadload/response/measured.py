@@ -17,7 +17,7 @@ from treadload.errors import InputError, meant
 from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.labels import check_names, factor, factor_asked, factor_of
+from treadload.labels import check_names, factor, factor_of, factor_of_argument
 from treadload.tables import Table, read_table
 from treadload.units import quantity
 
@@ -238,7 +238,7 @@ def _matrix(
     unit = units.get("pressure")
     if unit is None and strict:
         raise InputError(_no_unit(table.path, "pressure"))
-    scaled: Array = values * (1.0 if unit is None else factor_asked("pressure", unit, "Pa"))
+    scaled: Array = values * (1.0 if unit is None else factor_of_argument("pressure", unit, "Pa"))
     pressure = _checked(table, 0, "pressure", scaled, missing, floor)
     grid = grid_of(pressure.shape, spacing, x0, y0)
     return Recorded(grid, pressure, None, None, f"{table.path.name}: {how}, pressure in {unit or 'Pa'}")
@@ -323,7 +323,7 @@ def _columns(table: Table, units: Mapping[str, str]) -> tuple[dict[str, int], di
         if unit is not None and name in units:
             raise InputError(f"{path}, line {line}: {name} has a unit in the header, [{unit}]; leave it out of units")
         if unit is None and name in units:
-            factor_asked(name, units[name], _COLUMNS[name])
+            factor_of_argument(name, units[name], _COLUMNS[name])
         elif unit is not None:
             factor(unit, _COLUMNS[name])
         columns[name] = place

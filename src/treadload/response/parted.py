@@ -183,9 +183,9 @@ def solve_face(loads: tuple[SurfaceLoad, ...], road: Pavement) -> Face:
 
 def _onto(x: Array, y: Array, face: tuple[Array, Array, PartedFace]) -> tuple[Array, Array]:
     """Jump and traction of a face on other cells."""
-    own_x, own_y, state = face
+    face_x, face_y, state = face
     jump, traction = (
-        np.stack([scipy.interpolate.RectBivariateSpline(own_y, own_x, sheet, kx=1, ky=1)(y, x) for sheet in field])
+        np.stack([scipy.interpolate.RectBivariateSpline(face_y, face_x, sheet, kx=1, ky=1)(y, x) for sheet in field])
         for field in (state.jump, state.traction)
     )
     return jump, traction

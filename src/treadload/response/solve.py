@@ -115,7 +115,7 @@ def solve_response(
     cells = merged([load.cell if isinstance(load, UniformRectangle) else load for load in superposed])
     if mean_over is not None:
         check_length(mean_over)
-    given_road, road = road, at_speed(road, speed)
+    described_road, road = road, at_speed(road, speed)
     question = Question(cells, road, at_depths)
     view = View(at_x, at_y, at)
     (answer,) = answers([question], view, side=side, speed=speed, mean_over=mean_over, tell=progress)
@@ -150,7 +150,7 @@ def solve_response(
     warnings = _warnings(gridded, local) + solved.warnings
     warnings += question_caveats(at_depths, speed) + road_caveats(road) + overlapping(superposed)
     warnings += _drift(displacement, at_depths, cells)
-    response = Response(dataset, stats, warnings, superposed, given_road, speed, side)
+    response = Response(dataset, stats, warnings, superposed, described_road, speed, side)
     items = [loads] if isinstance(loads, Contact) else loads if isinstance(loads, Sequence) else []
     contacts = tuple(item for item in items if isinstance(item, Contact))
     if len(contacts) == len(superposed):

@@ -56,8 +56,8 @@ class DualWheels:
     def loads(self) -> tuple[UniformRectangle, UniformRectangle]:
         """Both contacts, 1 N together."""
         pressure = 0.5 / (self.length * self.width)
-        one_side = UniformRectangle(self.length, self.width, pressure, y=0.5 * self.spacing)
-        return one_side, one_side.mirrored()
+        right_wheel = UniformRectangle(self.length, self.width, pressure, y=0.5 * self.spacing)
+        return right_wheel, right_wheel.mirrored()
 
 
 Wheels = DualWheels | Load | Sequence[Load]

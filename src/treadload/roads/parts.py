@@ -52,8 +52,8 @@ def solve_in_parts(
         before = None if kept is None else kept.read(start, min(size, len(basins) - start))
         if before is not None:
             parts[start] = before
-    found_before = sum(len(part.status) for part in parts.values())
-    done = found_before
+    finished_before = sum(len(part.status) for part in parts.values())
+    done = finished_before
     tasks = {
         start: basins.rows(np.arange(start, min(start + size, len(basins)))) for start in starts if start not in parts
     }
@@ -66,7 +66,7 @@ def solve_in_parts(
             progress(done, len(basins), "station" if together else "basin")
     names = [entry.name for entry in dataclasses.fields(Fits)]
     joined = Fits(*(np.concatenate([getattr(parts[start], name) for start in starts]) for name in names))
-    return joined, found_before
+    return joined, finished_before
 
 
 def _solved(

@@ -15,7 +15,7 @@ from treadload.damage.climate import Climate, Season
 from treadload.life.ageing import longer_by_ageing
 from treadload.life.caveats import traffic_caveats
 from treadload.life.design import DEFAULT_TOLERANCE
-from treadload.life.reliability import roads_asked
+from treadload.life.reliability import number_of_roads
 from treadload.life.seasons import warmed
 from treadload.life.solve import solve_life
 from treadload.life.wheels import state
@@ -108,7 +108,7 @@ class LifeStep(Source, name="life"):
         case = scene.case
         if case.reliability is not None:
             # What cannot scatter is refused before anything is solved.
-            roads_asked(case.road(), case.build_criteria(), case.reliability.build())
+            number_of_roads(case.road(), case.build_criteria(), case.reliability.build())
         workers, progress = scene.options.workers, scene.progress.count
         life = solve_life(scene.design, workers=workers, progress=progress)
         longer = longer_by_ageing(scene.design, life, workers=workers, progress=progress)

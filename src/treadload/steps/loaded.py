@@ -13,7 +13,7 @@ from treadload.case import Case
 from treadload.contact import Contact, Enveloped, envelop, solve_contact
 from treadload.contact.contact_grid import NO_OFFSET
 from treadload.damage import Verdict, assess
-from treadload.damage.two_grids import COARSER, check_two_grids, known_on_its_cells, solving_coarser
+from treadload.damage.two_grids import COARSER, check_two_grids, only_on_fixed_cells, solving_coarser
 from treadload.damage.verdict import with_error
 from treadload.errors import InputError
 from treadload.footprint import Footprint
@@ -108,7 +108,7 @@ class Loaded:
         table, contact = self.case.damage, self.contact
         if table is None or table.lattices == 1 or table.depth is not None:
             return None
-        what = known_on_its_cells(None if contact is None else contact.tire)
+        what = only_on_fixed_cells(None if contact is None else contact.tire)
         if contact is None or what:
             if table.lattices == 2:
                 raise InputError(f"{what} has one lattice of cells and is not known between them; give lattices = 1")

@@ -9,7 +9,7 @@ from pydantic import model_validator
 from treadload.case.step import Step
 from treadload.damage import Life
 from treadload.damage.scatter import Scatter, check_risks
-from treadload.life.reliability import FEWEST_HELD, MonteCarlo, Reliability, life_reliability, roads_asked
+from treadload.life.reliability import FEWEST_HELD, MonteCarlo, Reliability, life_reliability, number_of_roads
 from treadload.steps.life import fails
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Scene
@@ -82,5 +82,5 @@ class ReliabilityStep(Step, name="reliability"):
 
     def plan(self, outline: Outline) -> None:
         """How many roads are solved."""
-        roads = roads_asked(outline.road, outline.case.build_criteria(), self.build())
+        roads = number_of_roads(outline.road, outline.case.build_criteria(), self.build())
         outline.add("scatter", f"{roads} roads for each criterion, in the seasons that do half of its damage")

@@ -177,8 +177,8 @@ def _layer(layer: Layer) -> str:
     positional = [_code(layer.material)]
     arguments = {"thickness": layer.thickness, "name": layer.name or None}
     if layer.bond != BONDED:
-        said_bond = "tl.pavement.FRICTIONLESS" if layer.bond == FRICTIONLESS else _code(layer.bond)
-        return f"tl.Layer({', '.join([*positional, *_keywords(arguments), f'bond={said_bond}'])})"
+        bond_code = "tl.pavement.FRICTIONLESS" if layer.bond == FRICTIONLESS else _code(layer.bond)
+        return f"tl.Layer({', '.join([*positional, *_keywords(arguments), f'bond={bond_code}'])})"
     return f"tl.Layer({', '.join([*positional, *_keywords(arguments)])})"
 
 

@@ -17,7 +17,7 @@ from treadload.errors import GeometryError, InputError, one_line
 from treadload.files import read_tree
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
-from treadload.labels import check_names, factor_asked, factor_of
+from treadload.labels import check_names, factor_of, factor_of_argument
 from treadload.metrology import ENDINGS, read_surface_map
 from treadload.tables import read_table, real_array
 from treadload.tire.crown import arc_radius
@@ -228,7 +228,7 @@ def read_height_map(
     if not os.path.isfile(path):
         raise InputError(f"no file {str(path)!r}: give the path of a NetCDF, CSV, text, NPY or NPZ height map")
     suffix = path.suffix.lower()
-    units_of = asked_units(units)
+    units_of = units_by_name(units)
     if suffix in ENDINGS:
         measured = read_surface_map(path, options=(spacing, units, decimal))
         # The outside of the tread is up in the file, and down on the road.
@@ -256,8 +256,8 @@ def read_height_map(
     return surface
 
 
-def asked_units(units: str | Mapping[str, str] | None) -> dict[str, str]:
-    """Units of gap, x and y that a caller gave, one text for all or by name. Raises InputError."""
+def units_by_name(units: str | Mapping[str, str] | None) -> dict[str, str]:
+    """Units of gap, x and y by name, from a mapping or one text for all. Raises InputError."""
     if isinstance(units, str):
         return dict.fromkeys(_NAMES, units)
     named_units = dict(units or {})
@@ -268,7 +268,7 @@ def asked_units(units: str | Mapping[str, str] | None) -> dict[str, str]:
 def in_metres(gap: Array, units: Mapping[str, str]) -> Array:
     """A gap in the unit that was given for it, in m."""
     with np.errstate(over="ignore"):
-        return gap * factor_asked("gap", units["gap"], "m") if "gap" in units else gap
+        return gap * factor_of_argument("gap", units["gap"], "m") if "gap" in units else gap
 
 
 def centred_height_map(gap: Array, spacing: tuple[float, float], source: str = "") -> HeightMapSurface:
@@ -379,12 +379,12 @@ def _factor(name: str, part: xr.DataArray, units: Mapping[str, str], about: str,
     return factor_of(name, part.attrs.get("units"), "m", units, where=about, bare=bare)
 
 
-def _even_steps(values: Array, name: str, file: str, given_step: float | None) -> tuple[float, float]:
+def _even_steps(values: Array, name: str, file: str, stated_step: float | None) -> tuple[float, float]:
     """First value and step of an evenly spaced coordinate, m."""
     if len(values) < 2:
-        if given_step is None:
+        if stated_step is None:
             raise InputError(f"coordinate {name} of {file!r} has one value and gives no spacing; give spacing in m")
-        return float(values[0]), given_step
+        return float(values[0]), stated_step
     with np.errstate(over="ignore", invalid="ignore"):
         step = float(values[-1] - values[0]) / (len(values) - 1)
         error = float(np.abs(np.diff(values) - step).max())
@@ -393,8 +393,8 @@ def _even_steps(values: Array, name: str, file: str, given_step: float | None) -
             f"coordinate {name} of {file!r} is not evenly spaced: "
             f"steps differ by up to {error:.3g} m from {step:.3g} m"
         )
-    if given_step is not None and abs(given_step - step) > 1e-3 * step:
+    if stated_step is not None and abs(stated_step - step) > 1e-3 * step:
         raise InputError(
-            f"spacing along {name} was given as {given_step:g} m but {file!r} has {step:g} m; leave spacing out"
+            f"spacing along {name} was given as {stated_step:g} m but {file!r} has {step:g} m; leave spacing out"
         )
     return float(values[0]), step

@@ -32,11 +32,11 @@ from treadload.tire.ribs import RibGroup, cross_section_of, ribs_between
 from treadload.tire.surface import (
     Raised,
     Surface,
-    asked_units,
     centred_height_map,
     in_metres,
     of_variable,
     read_height_map,
+    units_by_name,
 )
 from treadload.tire.symmetry import is_mirrored
 from treadload.tire.tread import ProfileSurface, TreadProfile
@@ -151,7 +151,7 @@ class Tire:
             surface = read_height_map(Path(gap), cell, units, decimal)
             named: BodyKeys = {**body, "name": body.get("name") or Path(gap).name}
             return cls(surface, **named)
-        units_of = asked_units(units)
+        units_of = units_by_name(units)
         if hasattr(gap, "dims") and hasattr(gap, "coords"):
             labelled: Any = gap
             return cls(of_variable(labelled, cell, units_of), **body)

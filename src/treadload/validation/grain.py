@@ -128,8 +128,8 @@ def _below() -> Iterator[Check]:
     upright = TransverselyIsotropic(5.4e9, 3.8e9, 1.6e9, 0.35, 0.25)
     ratio = 0.25 * 5.4 / 3.8
     same = Orthotropic((5.4e9, 5.4e9, 3.8e9), (2e9, 1.6e9, 1.6e9), (0.35, ratio, ratio))
-    one_cell = np.ones((1, 1))
-    cell = GridLoad(Grid(1, 1, 0.02, 0.02, 0.0, 0.0), 8e5 * one_cell, 1e5 * one_cell, -2e5 * one_cell)
+    uniform = np.ones((1, 1))
+    cell = GridLoad(Grid(1, 1, 0.02, 0.02, 0.0, 0.0), 8e5 * uniform, 1e5 * uniform, -2e5 * uniform)
     x = 0.003 + 0.01 * np.arange(-3, 4)
     for depth in (0.0, 0.001, 0.02):
         response, reference = (

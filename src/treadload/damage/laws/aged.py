@@ -161,7 +161,7 @@ def _aged_line(
     the young mix, 1 of cores of 32 years. age: in place of it, of the road. mean_air: of the air over the year, with
     the age. binder: a grade such as "60/70", with the age. depth: where the line is meant; left out, the surface.
     """
-    arguments = at.with_own({"epsilon_6": epsilon_6, "slope": slope}, "epsilon_6", "slope")
+    arguments = at.with_layer_values({"epsilon_6": epsilon_6, "slope": slope}, "epsilon_6", "slope")
     at.needed(arguments, "epsilon_6", "slope")
     young, gradient = arguments["epsilon_6"], arguments["slope"]
     assert young is not None

@@ -91,8 +91,8 @@ class OnLayer:
             )
         return accepted
 
-    def with_own(self, values: Mapping[str, Argument | None], *names: str) -> dict[str, Argument | None]:
-        """What is given, and of these names the material's own where nothing is."""
+    def with_layer_values(self, values: Mapping[str, Argument | None], *names: str) -> dict[str, Argument | None]:
+        """Values of the table; where it leaves one of these names out, that of the layer's material."""
         defaults = {name: getattr(self.material, name, None) for name in names}
         return {**defaults, **{name: value for name, value in values.items() if value is not None}}
 
@@ -128,7 +128,7 @@ def law_of_layer(
     rest = [name for name in needed if name != "modulus"]
     if "thickness" in rest and "thickness" not in arguments:
         arguments["thickness"] = at.asphalt()
-    arguments = {**at.with_own({}, *(name for name in rest if name not in arguments)), **arguments}
+    arguments = {**at.with_layer_values({}, *(name for name in rest if name not in arguments)), **arguments}
     material = at.material
     if "modulus" in needed and "modulus" not in arguments:
         if isinstance(material, Mix):
@@ -177,7 +177,10 @@ def _bituminous(
         **dict.fromkeys(FrenchConstants.__annotations__), **constants,
     }  # fmt: skip
     if isinstance(mix, Mix):
-        arguments = {**arguments, **at.with_own(arguments, "epsilon_6", "slope", "scatter", "calibration")}
+        arguments = {
+            **arguments,
+            **at.with_layer_values(arguments, "epsilon_6", "slope", "scatter", "calibration"),
+        }
     if constants.get("platform_modulus") is None:
         arguments["platform_modulus"] = at.platform_modulus
     if thickness is None:
@@ -213,7 +216,7 @@ def _hydraulic(
     }  # fmt: skip
     if isinstance(at.material, HydraulicMix):
         names = ("sigma_6", "slope", "scatter", "calibration", "joints", "thickness_scatter")
-        arguments = {**arguments, **at.with_own(arguments, *names)}
+        arguments = {**arguments, **at.with_layer_values(arguments, *names)}
     if constants.get("platform_modulus") is None:
         arguments["platform_modulus"] = at.platform_modulus
     at.needed(arguments, "risk", "sigma_6", "slope", "scatter", "calibration")

@@ -314,11 +314,11 @@ def _correct(field: Array, source: Source, depth: float, along: _Near, across: _
     near = cells_y.shape[1] * cells_x.shape[1]
     for part_y, part_x in blocks(len(first_y), len(first_x), near):
         lacking = _lacking(source, depth, along.of(first_x[part_x]), across.of(first_y[part_y]), kept)
-        own_y = [np.flatnonzero(place_y == k) for k in range(part_y.start, part_y.start + len(lacking))]
-        own_x = [np.flatnonzero(place_x == k) for k in range(part_x.start, part_x.start + lacking.shape[1])]
-        for points_y, several in zip(own_y, lacking, strict=True):
+        at_row = [np.flatnonzero(place_y == k) for k in range(part_y.start, part_y.start + len(lacking))]
+        at_column = [np.flatnonzero(place_x == k) for k in range(part_x.start, part_x.start + lacking.shape[1])]
+        for points_y, several in zip(at_row, lacking, strict=True):
             lines = load[:, cells_y[points_y]]
-            for points_x, weights in zip(own_x, several, strict=True):
+            for points_x, weights in zip(at_column, several, strict=True):
                 # (load, rows, cells, columns, cells)
                 patches = lines[..., cells_x[points_x]].transpose(1, 3, 0, 2, 4)
                 part = patches.reshape(len(points_y), len(points_x), -1) @ weights

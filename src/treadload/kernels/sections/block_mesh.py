@@ -223,9 +223,9 @@ def _lines(around: tuple[float, int, float], largest: float) -> Array:
     inside = np.unique([*inside, _AT_WALL / count, 1 - _AT_WALL / count])
     parts: list[tuple[int, Array]] = [(1, inside)]
     if before > 0:
-        parts.insert(0, (0, 1 - _one_end(before, _BESIDE * largest, largest)[::-1]))
+        parts.insert(0, (0, 1 - _from_first_end(before, _BESIDE * largest, largest)[::-1]))
     if behind > 0:
-        parts.append((2, _one_end(behind, _BESIDE * largest, largest)))
+        parts.append((2, _from_first_end(behind, _BESIDE * largest, largest)))
     lines: list[Point] = []
     for number, edges in parts:
         fine = with_middles(edges)
@@ -243,7 +243,7 @@ def _both_ends(length: float, finest: float, largest: float) -> Array:
     return np.concatenate([half, 1 - half[-2::-1]])
 
 
-def _one_end(length: float, finest: float, largest: float) -> Array:
+def _from_first_end(length: float, finest: float, largest: float) -> Array:
     """Edges of elements, from 0 to 1, that grow from the first end of a length, m."""
     sizes = growing(length, finest, largest)
     return np.concatenate([[0.0], np.cumsum(sizes)]) / sum(sizes)

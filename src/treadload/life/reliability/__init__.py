@@ -2,6 +2,6 @@
 
 from treadload.life.reliability.propagation import MonteCarlo
 from treadload.life.reliability.solution import Reliability
-from treadload.life.reliability.solve import FEWEST_HELD, life_reliability, roads_asked
+from treadload.life.reliability.solve import FEWEST_HELD, life_reliability, number_of_roads
 
-__all__ = ["FEWEST_HELD", "MonteCarlo", "Reliability", "life_reliability", "roads_asked"]
+__all__ = ["FEWEST_HELD", "MonteCarlo", "Reliability", "life_reliability", "number_of_roads"]

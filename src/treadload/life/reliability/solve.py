@@ -166,7 +166,7 @@ def _weather_share(life: Life, number: int) -> float:
     return float(life.dataset["weather_share"][number].sum()) if "weather_share" in life.dataset else 0.0
 
 
-def roads_asked(road: Pavement, criteria: Sequence[Criterion], scatter: Scatter) -> int:
+def number_of_roads(road: Pavement, criteria: Sequence[Criterion], scatter: Scatter) -> int:
     """How many roads a reliability solves for each criterion; InputError for a scatter of what is not there."""
     check_names(scatter.fatigue, [criterion.name for criterion in criteria])
     inputs, _ = inputs_of(road, scatter)

@@ -72,10 +72,10 @@ def neighbours(material: RoadMaterial) -> tuple[RoadMaterial, ...]:
         alike = [candidate for candidate in alike if getattr(candidate, "epsilon_6", None) is not None]
     above = [candidate for candidate in alike if _rank(candidate) > rank]
     below = [candidate for candidate in alike if _rank(candidate) < rank and not isinstance(material, Unbound)]
-    stiffer_one, softer_one = (
+    next_stiffer, next_softer = (
         [choose(candidates, key=_rank)] if candidates else [] for choose, candidates in ((min, above), (max, below))
     )
-    return (*stiffer_one, *softer_one)
+    return (*next_stiffer, *next_softer)
 
 
 def bonded_interfaces(design: Design, steps: RemedySteps) -> Iterator[Change]:

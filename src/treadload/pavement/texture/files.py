@@ -11,7 +11,7 @@ import numpy as np
 from treadload.errors import InputError, one_line
 from treadload.files import read_tree
 from treadload.kernels.arrays import Array
-from treadload.labels import factor_asked, factor_of
+from treadload.labels import factor_of, factor_of_argument
 from treadload.metrology import ENDINGS, read_surface_map
 from treadload.pavement.texture.crg import read_crg
 from treadload.pavement.texture.description import Texture
@@ -140,7 +140,7 @@ def of_matrix(
     if heights.ndim == 2 and heights.shape[1] == 1:
         heights = heights.T
     with np.errstate(over="ignore"):
-        scaled = heights * (factor_asked("heights", units, "m") if units else 1.0)
+        scaled = heights * (factor_of_argument("heights", units, "m") if units else 1.0)
     return Texture(scaled, steps[0], steps[-1], source=source)
 
 

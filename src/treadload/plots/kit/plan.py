@@ -21,6 +21,7 @@ from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.largest import index_of_largest
 from treadload.kernels.layers.depths import same_depth
 from treadload.plots.kit.style import INK, MUTED, PAPER, RULE, figure_of, halo
+from treadload.response.fields import number_of_depth
 from treadload.units import stress_in_words
 
 MM = 1e3
@@ -86,12 +87,7 @@ def at_depth(data: xr.Dataset, depth: float) -> xr.Dataset:
     """The plane (y, x) at one of a response's depths, m; InputError for a depth it does not have."""
     if "depth" not in data.dims:
         return data
-    depths = data["depth"].to_numpy()
-    nearest = int(np.argmin(np.abs(depths - depth)))
-    if not same_depth(depths[nearest], depth):
-        levels = ", ".join(f"{d:g}" for d in depths)
-        raise InputError(f"the response has no depth {depth:g} m, it has {levels} m")
-    return data.isel(depth=nearest)
+    return data.isel(depth=number_of_depth(data, depth))
 
 
 def plane(data: xr.Dataset, name: str) -> Array:

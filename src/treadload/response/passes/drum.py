@@ -282,7 +282,7 @@ def _run(
     box = rolled.box
     duration = 0.0 if question.speed is None else box.dx / question.speed
 
-    def one_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
+    def next_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
         question.tell(f"pass {number} of at most {passes}")
         pressed = rolled.pressed(track.whole(states)[0])
         done = roll(track, pressed, states, duration=duration, tolerance=tolerance)
@@ -290,7 +290,7 @@ def _run(
         rolled.contacts.append(rolled.near)
         return done, 0.0
 
-    records, ends, error = follow(track, passes, one_pass, deepest=question.courses[-1].bottom, rests=True)
+    records, ends, error = follow(track, passes, next_pass, deepest=question.courses[-1].bottom, rests=True)
     if error is not None:
         number = len(rolled.contacts) + 1
         raise ConvergenceError(

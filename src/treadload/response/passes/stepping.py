@@ -175,7 +175,7 @@ def _run(
     wide = _mean_stress(question, box, y)
     duration = 0.0 if question.speed is None or not question.speed > 0 else box.dx / question.speed
 
-    def one_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
+    def next_pass(number: int, states: Sequence[State]) -> tuple[Pass, float]:
         place = places[(number - 1) % len(places)]
         question.tell(f"pass {number} of {passes}")
         stress = stress_at(place)
@@ -184,7 +184,7 @@ def _run(
     def stress_at(place: int) -> Array:
         return wide[:, :, right - place : right - place + box.ny]
 
-    records, ends, error = follow(track, passes, one_pass, deepest=question.courses[-1].bottom)
+    records, ends, error = follow(track, passes, next_pass, deepest=question.courses[-1].bottom)
     attrs: dict[str, Any] = {"elastic_load_factor": elastic_factor(track, wide)}
     warnings: tuple[str, ...] = ()
     if error is not None and seeks:

@@ -20,7 +20,7 @@ from treadload.kernels.arrays import Array
 from treadload.registry import READERS
 from treadload.rows import Row, row
 from treadload.tire.scan.cloud import bridged
-from treadload.tire.scan.laser_file import Lines, asked_of, read_lines
+from treadload.tire.scan.laser_file import Lines, read_laser_file, read_lines
 from treadload.tire.scan.mesh_file import Triangles
 from treadload.variables import dataset
 
@@ -43,7 +43,7 @@ def wheel_of_lines(path: Path) -> Triangles:
     road. Lines at one angle, of several turns or of a wheel that stood, are averaged; drop-outs of up to two lines
     are bridged from both sides. Raises InputError and GeometryError.
     """
-    laser = asked_of(path)
+    laser = read_laser_file(path)
     if not laser.turns:
         raise InputError(
             f"the laser of {path.name!r} moved over a piece of tread, of which no wheel can be made; make a height "
@@ -107,7 +107,7 @@ def piece_of_lines(path: str | os.PathLike[str]) -> LaserPiece:
     The plane on the tops is taken off, since nobody mounts a laser or a piece exactly level. Cells without a point
     take the mean of their neighbours where five or more of these have one. Raises InputError and GeometryError.
     """
-    laser, name = asked_of(path), Path(path).name
+    laser, name = read_laser_file(path), Path(path).name
     if laser.turns:
         raise InputError(f"the wheel of {name!r} turned before its laser; it is a scan of a tire, Tire.from_scan")
     lines = read_lines(laser, Path(path).parent)

@@ -145,8 +145,8 @@ def is_laser(path: Path) -> bool:
         return False
 
 
-def asked_of(path: str | os.PathLike[str]) -> LaserFile:
-    """What the table [laser] of a TOML file asks; its text starts from its folder. Raises InputError."""
+def read_laser_file(path: str | os.PathLike[str]) -> LaserFile:
+    """The table [laser] of a TOML file; paths in it start from its folder. Raises InputError."""
     # pydantic is loaded when a file is read, not before.
     from treadload.read import read
 
