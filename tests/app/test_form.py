@@ -1,5 +1,6 @@
 """The form is a case: what is typed, what the reader says of it, whose values they are."""
 
+import asyncio
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -396,3 +397,24 @@ def test_two_browsers_share_nothing():
     finally:
         one.close()
         other.close()
+
+
+def test_what_a_first_form_waits_for_is_read_once(monkeypatch):
+    """Pages that are asked for at the same time wait for the same reading; a page without a form waits for none."""
+    server = pytest.importorskip("treadload.app.server")
+    read = []
+
+    class Counted:
+        @staticmethod
+        def first(command):
+            read.append(command)
+            return Form.first(command)
+
+    monkeypatch.setattr(server, "Form", Counted)
+
+    async def several():
+        forms = server.FirstForms()
+        await asyncio.gather(*(forms.ready(command) for command in ("run", "", "run", "life", "run")))
+
+    asyncio.run(several())
+    assert read == ["run", "life"]

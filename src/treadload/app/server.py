@@ -9,6 +9,7 @@ import socket
 import sys
 import webbrowser
 from collections.abc import Awaitable, Callable, Mapping
+from pathlib import Path
 
 from fastapi import Request
 from fastapi.responses import FileResponse, PlainTextResponse, Response
@@ -19,6 +20,7 @@ from nicegui.server import Server
 from treadload.app.connections import Impatient
 from treadload.app.engines import EngineLost, Engines
 from treadload.app.export_files import KINDS
+from treadload.app.form import Form
 from treadload.app.guard import SESSION, Guard, Keys, address_of
 from treadload.app.links import Links
 from treadload.app.page_frame import Page
@@ -67,10 +69,13 @@ def _run(host: str, port: int, links: Links, service: Service, *, open_browser: 
     engines, proxy = Engines(service.limits), service.proxy
     sessions = Sessions(engines, links.folder)
     keys = Keys(host, port, links.use, sessions.end, _is_connected, proxy=proxy)
-    prepare(keys, sessions)
+    forms = FirstForms()
+    prepare(keys, sessions, forms)
 
     async def ready() -> None:
         engines.warm()
+        for command in dict.fromkeys(page.command for page in registered_pages()):
+            background_tasks.create(forms.ready(command))
         background_tasks.create(announce())
 
     async def announce() -> None:
@@ -108,7 +113,28 @@ def _serve(host: str, port: int) -> None:
     )  # fmt: skip
 
 
-def prepare(keys: Keys, sessions: Sessions) -> None:
+class FirstForms:
+    """What the first form of a command waits for, its schema and the units, read once while the browser opens."""
+
+    def __init__(self) -> None:
+        self._tasks: dict[str, asyncio.Task[object]] = {}
+        self._turn = asyncio.Lock()
+
+    async def ready(self, command: str) -> None:
+        """Return once it is read; at once for "", which is no command."""
+        if command and command not in self._tasks:
+            self._tasks[command] = asyncio.create_task(self._read(command))
+        if command:
+            # A page that is closed meanwhile ends its wait, not the reading.
+            await asyncio.shield(self._tasks[command])
+
+    async def _read(self, command: str) -> None:
+        # Two at once would read the same libraries twice.
+        async with self._turn:
+            await asyncio.to_thread(lambda: Form.first(command).parts(Path()))
+
+
+def prepare(keys: Keys, sessions: Sessions, forms: FirstForms) -> None:
     """Put the page and its guard into the application."""
     logging.getLogger("nicegui").setLevel(logging.ERROR)
     # A bar over the page at each upload, which has no name for who does not see it.
@@ -116,7 +142,7 @@ def prepare(keys: Keys, sessions: Sessions) -> None:
 
     pages = registered_pages()
     for kind in pages:
-        _page(keys, sessions, kind, pages)
+        _page(keys, sessions, forms, kind, pages)
 
     @app.get("/take/{run}/{kind}")
     async def take(request: Request, run: str, kind: str) -> Response:
@@ -145,11 +171,12 @@ def prepare(keys: Keys, sessions: Sessions) -> None:
     _around_everything(keys)
 
 
-def _page(keys: Keys, sessions: Sessions, kind: type[Page], pages: list[type[Page]]) -> None:
+def _page(keys: Keys, sessions: Sessions, forms: FirstForms, kind: type[Page], pages: list[type[Page]]) -> None:
     """A page at its address, for tabs of whoever asks."""
 
     @ui.page(kind.address, title=f"treadload, {kind.title}", response_timeout=30.0)
     async def page_of(request: Request) -> None:
+        await forms.ready(kind.command)
         name, client = request.scope[SESSION], ui.context.client
         session, left = sessions.tab(name)
         keys.owners[client.id] = name

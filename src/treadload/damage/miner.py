@@ -230,8 +230,14 @@ def damage_of(
         * np.array([season.share for season in climate.seasons])
     )
     damage = np.empty(np.delete(readings.shape, 3))
-    for (k, c, s), cycle in np.ndenumerate(np.broadcast_to(cycles, damage.shape[:3])):
-        damage[k, c, s] = cycle * harm_of(laws[k][c][s], readings[k, c, s])
+    for k, c in np.ndindex(damage.shape[:2]):
+        of_season = laws[k][c]
+        # Seasons of one law are evaluated together, which costs less than one after the other.
+        for law in {id(law): law for law in of_season}.values():
+            seasons = [s for s, season_law in enumerate(of_season) if season_law is law]
+            turns = readings[k, c, seasons].swapaxes(0, 1)
+            harm = harm_of(law, turns.reshape(len(turns), -1)).reshape(len(seasons), -1)
+            damage[k, c, seasons] = cycles[c, seasons, None] * harm
     return damage
 
 

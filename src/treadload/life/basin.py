@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Hashable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import scipy
@@ -24,9 +22,6 @@ BESIDE_STEP = 0.012
 _SAME = 1e-9
 # Weights of values that change no digit of single precision.
 _LOST = 1e-12
-
-Field = tuple[tuple[Hashable, ...], Array, dict[Any, Any]]
-"""Dimensions, values and attributes of a variable."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,12 +72,13 @@ class Basin:
         Components are smooth and follow splines; what is read of them is not, where principal directions change
         places and where tension begins.
         """
-        both: list[dict[str, Field]] = [{}, {}]
+        both: list[dict[str, xr.Variable]] = [{}, {}]
         for name, field in data.variables.items():
             if name not in data.coords:
                 along = field.values.astype(np.float32, copy=False) @ self.along.T
-                both[0][str(name)] = (field.dims, self.across @ along, field.attrs)
-                both[1][str(name)] = (field.dims, self.onto @ along[..., self.outside], field.attrs)
+                sheets = self.across @ along, self.onto @ along[..., self.outside]
+                for part, sheet in zip(both, sheets, strict=True):
+                    part[str(name)] = xr.Variable(field.dims, sheet, field.attrs, fastpath=True)
         depths = data.variables["depth"].values
         # Variables, not arrays with coordinates, which cost more than these products.
         return (

@@ -133,7 +133,7 @@ def _cycles(read: Array, far: BoolArray, law: FatigueLaw) -> tuple[Array, Array]
     tops, bottoms = rainflow(*turning_points(read))
     harm = harm_of_each(law, tops, bottoms)
     # A cycle's peak is a value of the line: which one tells the column.
-    away = np.array([np.isin(peaks, line[far]) for peaks, line in zip(tops, read, strict=True)]).reshape(tops.shape)
+    away = (tops[:, :, None] == read[:, None, far]).any(axis=-1)
     return harm.sum(axis=1), np.where(away, harm, 0.0).sum(axis=1)
 
 

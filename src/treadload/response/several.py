@@ -94,7 +94,12 @@ def needed_fields(
     tensors = [tensor_fields(answer.fields.stress, answer.fields.strain) for answer in solved]
     return [
         xr.Dataset(
-            {name: (*field, variables.attributes(name)) for name, field in fields.items() if name in wanted},
+            # Variables, which xarray does not look at again.
+            {
+                name: xr.Variable(*field, variables.attributes(name), fastpath=True)
+                for name, field in fields.items()
+                if name in wanted
+            },
             places[tuple(question.depths.tolist())],
         )
         for question, fields in zip(questions, tensors, strict=True)
