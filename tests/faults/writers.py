@@ -112,7 +112,7 @@ def _take(parts: Any, path: Path) -> None:
     """The tables of a run as the page hands them over."""
     from treadload.app.export_files import write_export
 
-    write_export(parts, lambda: None, "csv", path.parent, "a", {})
+    write_export(parts, lambda: None, "csv", path.parent, "a")
 
 
 def _upload(path: Path) -> None:

@@ -336,7 +336,7 @@ class Engine:
 
     # Taking home.
 
-    def _export(self, say: Say, run: str, kind: str, view: View | None = None) -> None:
+    def _export(self, say: Say, run: str, kind: str) -> None:
         from treadload.app.export_files import write_export
 
         stored = self.runs.run_of(run)
@@ -350,7 +350,7 @@ class Engine:
                 pass
             return result_of(scene)
 
-        say(done=True, file=write_export(stored.parts, whole, kind, self.runs.folder, run, view or {}))
+        say(done=True, file=write_export(stored.parts, whole, kind, self.runs.folder, run))
 
 
 def warm() -> None:

@@ -7,7 +7,6 @@ import zipfile
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
-from treadload.app.answers import View
 from treadload.composing import BaseResult
 from treadload.errors import InputError
 from treadload.files import write_whole
@@ -21,12 +20,7 @@ KINDS = {"nc": "result.nc", "html": "report.html", "csv": "tables.zip"}
 
 
 def write_export(
-    parts: Mapping[str, BaseResult],
-    whole: Callable[[], object],
-    kind: str,
-    folder: Path,
-    run: str,
-    view: View,
+    parts: Mapping[str, BaseResult], whole: Callable[[], object], kind: str, folder: Path, run: str
 ) -> str:
     """Write a file of a run in the folder; returns its name.
 

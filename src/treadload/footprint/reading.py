@@ -115,7 +115,7 @@ def read_footprint(
     pressure = _checked(path, np.where(valid, pressure, 0.0), least, most)
     caveats = [*frames.warnings, *caveats_of(path, pressure, valid, most, travel)]
     holes, stuck = lone(pressure, valid)
-    caveats += dead_in_words(path, holes, stuck, dead, float(pressure[valid].sum()))
+    caveats += dead_in_words(path, holes, stuck, dead)
     if dead == "fill":
         pressure = filled(pressure, holes, valid)
     else:

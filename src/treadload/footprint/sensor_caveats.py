@@ -64,7 +64,7 @@ def caveats_of(path: Path, pressure: Array, valid: BoolArray, most: float, trave
     return sentences
 
 
-def dead_in_words(path: Path, holes: BoolArray, stuck: BoolArray, dead: str, total: float) -> list[str]:
+def dead_in_words(path: Path, holes: BoolArray, stuck: BoolArray, dead: str) -> list[str]:
     """Sentences that name dead and stuck sensels. dead: what was done with them."""
     sentences = []
     if holes.any():

@@ -53,7 +53,7 @@ def needs_halved_cells(design: Design, life: Life) -> bool:
         whole = life.dataset["damage_per_year"].to_numpy()[k]
         top = float(whole.max())
         if top > 0:
-            part = _of_side_forces(design, life, k, len(whole))
+            part = _of_side_forces(life, k, len(whole))
             if any(abs((whole + sign * _ERROR * part).max() / top - 1) > _ACCEPTED for sign in (-1, 1)):
                 return True
     return False
@@ -73,7 +73,7 @@ def pushed_classes(traffic: Traffic) -> list[int]:
     return [row for row, axles in enumerate(traffic.classes) if has_side_force(axles.maneuver)]
 
 
-def _of_side_forces(design: Design, life: Life, number: int, columns: int) -> Array:
+def _of_side_forces(life: Life, number: int, columns: int) -> Array:
     """Damage of the first year (columns,) by a criterion that wheels with a side force do, after wander."""
     traffic, laws, y = life.traffic, life.class_laws[number], life.readings["y"].to_numpy()
     readings = life.readings.to_numpy()[number]

@@ -60,12 +60,8 @@ def rut_fields(design: Design, rutting: Rutting, wheels: Sequence[Wheels]) -> tu
     for k, row in enumerate(traffic.classes):
         for which, season in zip(warm.where, climate.seasons, strict=True):
             part = row.share * season.share * axles[k]
-            factor = np.array(
-                [
-                    PassesPowerLaw.asphalt(temperature).factor
-                    for temperature in _temperatures(road, season, depths, owner)
-                ]
-            )
+            warmth = np.clip(_temperatures(season, depths, owner), COLDEST, WARMEST)
+            factor = np.array([PassesPowerLaw.asphalt(temperature).factor for temperature in warmth])
             rate += part * (compression[k, which] * (factor * deep)[:, None]) ** (1 / power)
             strain += part * compression[k, which]
     step = float(y[1] - y[0])
@@ -96,7 +92,7 @@ def rut_fields(design: Design, rutting: Rutting, wheels: Sequence[Wheels]) -> tu
     places = {"rut_layer": np.arange(len(names)), "year": years}
     data = variables.dataset({"rut_depth": (("rut_layer", "year"), depth)}, places, **attrs)
     caveats = [f"rut: {CAVEAT}"]
-    cold = [season.name for season in climate.seasons if _coldest(road, season, depths, owner) < COLDEST]
+    cold = [season.name for season in climate.seasons if _temperatures(season, depths, owner).min() < COLDEST]
     if cold:
         caveats.append(
             f"rut: asphalt below {COLDEST:g} °C counts as if at {COLDEST:g} °C, where its data end: {cold[0]}"
@@ -212,18 +208,10 @@ def _compression(wheels: Wheels, road: Pavement, depths: Array, y: Array) -> Arr
     return compression
 
 
-def _depth_temperatures(road: Pavement, season: Season, depths: Array, owner: Array) -> list[float]:
-    """Temperature at the depths, °C."""
+def _temperatures(season: Season, depths: Array, owner: Array) -> Array:
+    """Temperature at the depths, °C. owner: the layer of each depth."""
     profile, temperature = season.profile, season.temperature
     if profile is not None:
-        return [profile.temperature_at(float(depth), extrapolate=True) for depth in depths]
+        return np.array([profile.temperature_at(float(depth), extrapolate=True) for depth in depths])
     assert not isinstance(temperature, TemperatureProfile)
-    return [temperature[int(number)] if isinstance(temperature, tuple) else temperature for number in owner]
-
-
-def _temperatures(road: Pavement, season: Season, depths: Array, owner: Array) -> Array:
-    return np.clip(_depth_temperatures(road, season, depths, owner), COLDEST, WARMEST)
-
-
-def _coldest(road: Pavement, season: Season, depths: Array, owner: Array) -> float:
-    return min(_depth_temperatures(road, season, depths, owner))
+    return np.array([temperature[int(number)] if isinstance(temperature, tuple) else temperature for number in owner])

@@ -170,7 +170,7 @@ def _of_layers(
     """A part for each pair of panels that waves up to the limit fall into."""
     parts = []
     path = _fine(limit, extent)
-    ky, wy = _across(limit, y, spectra)
+    ky, wy = _across(limit)
     lines = path.lines(x, slice(None)) * (-1j * path.nodes)[:, None]
     for number, (low, high) in enumerate(itertools.pairwise(steps)):
         rows = np.flatnonzero((path.nodes >= low) & (path.nodes < high) & (path.nodes < limit))
@@ -200,7 +200,7 @@ def _of_layers(
     return parts
 
 
-def _across(limit: float, y: float, spectra: Sequence[Spectrum]) -> tuple[Array, Array]:
+def _across(limit: float) -> tuple[Array, Array]:
     # Wheels lie within a metre of the line: half a panel turns less than seven radians.
     low, high = panels(limit, 1.0, 1e-7 / _BEGIN)
     points, share = gauss(_ACROSS)
