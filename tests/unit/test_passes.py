@@ -11,7 +11,7 @@ from treadload.kernels.eigenstrain.operator import moved_by_endless
 from treadload.materials import MohrCoulomb, PassesPowerLaw, Perzyna, VonMises
 from treadload.response.passes import verdict
 from treadload.response.passes.box import Box, courses, row_edges
-from treadload.response.passes.counts import told_counts
+from treadload.response.passes.counts import reported_counts
 from treadload.response.passes.melan import enclosing
 from treadload.response.passes.surface import surface_profile
 from treadload.response.passes.verdict import in_words, judged, still_falls
@@ -124,7 +124,7 @@ def test_a_law_of_passes_counts_them_on_the_same_stress():
     expected = 0.8 * float(stress.von_mises_stress[0, 0, 0]) / 600e6
     middle = data.isel({"pass": 0, "depth": 2}).sel(y=0.0, method="nearest")
     assert 0.5 < float(middle.equivalent_plastic_strain) / expected < 1.3
-    assert list(told_counts(7)) == [1, 2, 5, 7]
+    assert list(reported_counts(7)) == [1, 2, 5, 7]
 
 
 def test_wheels_that_wander_spread_the_rut():

@@ -23,7 +23,7 @@ from treadload.errors import InputError
 from treadload.life import MonteCarlo, life_reliability, solve_life
 from treadload.life.contacts import Contacts
 from treadload.life.reliability.direct import Direct
-from treadload.life.reliability.inputs import asked_at, inputs_of
+from treadload.life.reliability.inputs import inputs_of, question_at
 from treadload.life.reliability.propagation import Quadratic, drawn, first_order
 from treadload.life.reliability.surface import designed, fitted
 from treadload.life.variants import Solver
@@ -143,7 +143,7 @@ def test_years_at_a_risk_are_those_of_direct_solves_within_their_error():
     z = ndtri(qmc.Sobol(len(inputs), seed=7).random(1024))
     solver = Solver(BASE, [(0, 0), (1, 0)], CONTACTS, None)
     with ThreadPoolExecutor(1) as pool:
-        damage = solver.damages([asked_at(inputs, ROAD, traffic, both.climate, point) for point in z], pool)
+        damage = solver.damages([question_at(inputs, ROAD, traffic, both.climate, point) for point in z], pool)
     median = np.log(damage) + 5 * math.log(LAW.risk_factor)
     # Traffic and fatigue are normal in ln D: their part of the probability is exact.
     spread = math.hypot(math.sqrt(math.log1p(0.1**2)), 0.25 * math.log(10))
@@ -194,7 +194,7 @@ def test_a_surface_meets_solves_that_it_has_not_seen(life):
     assert inputs[0].name == "thickness of the asphalt"
     points, unseen = designed(len(inputs)), np.random.default_rng(3).uniform(-1.5, 1.5, (6, len(inputs)))
     solver = Solver(BASE, [(0, 0)], CONTACTS, None)
-    questions = [asked_at(inputs, ROAD, life.traffic, life.climate, point) for point in (*points, *unseen)]
+    questions = [question_at(inputs, ROAD, life.traffic, life.climate, point) for point in (*points, *unseen)]
     with ThreadPoolExecutor(1) as pool:
         strain = np.log(solver.damages(questions, pool)) / 5
     constant, gradient, curvature, error = fitted(points, strain[: len(points)])

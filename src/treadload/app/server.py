@@ -167,7 +167,7 @@ def prepare(keys: Keys, sessions: Sessions, forms: FirstForms) -> None:
 
     app.add_static_files("/look", LOOK, max_cache_age=0)
     give_nonces(templates.env.loader)
-    _own_events(keys)
+    _keep_events_in_session(keys)
     _around_everything(keys)
 
 
@@ -202,8 +202,8 @@ def _around_everything(keys: Keys) -> None:
 Handler = Callable[..., object]
 
 
-def _own_events(keys: Keys) -> None:
-    """Let a socket speak for pages of its own session only."""
+def _keep_events_in_session(keys: Keys) -> None:
+    """Let a socket send events to pages of its session only."""
     for event in ("event", "javascript_response", "ack", "log", "handshake"):
         inner = core.sio.handlers["/"][event]
 

@@ -31,7 +31,7 @@ MAPS = ("computed", "seen", "measured")
 """A contact on its own cells; as the sensor would record it; what the sensor recorded."""
 
 # Loads that differ by more are reported: what mats of sensors repeat a load to, after calibration.
-_LOAD_TOLD = 0.05
+_LOAD_DIFFERENCE = 0.05
 # Judgement: share of the pressure that overlaps, and difference of the areas. Two prints of one tire on a mat reach
 # the first, prints of tires with other grooves stay below the second.
 _AGREES, _ROUGHLY = (0.85, 0.05), (0.70, 0.15)
@@ -230,7 +230,7 @@ def _check_loads(load: GridLoad, sensor: Footprint, tolerance: float) -> list[st
     """A sentence about loads that differ. Raises InputError where they differ by more than the tolerance."""
     ratio = sensor.normal_load / load.normal_load
     off = abs(ratio - 1)
-    if off <= _LOAD_TOLD:
+    if off <= _LOAD_DIFFERENCE:
         return []
     forces = (
         f"the footprint carries {sensor.normal_load / 1e3:.4g} kN and the contact {load.normal_load / 1e3:.4g} kN, "

@@ -60,7 +60,7 @@ class StressSublayers:
             )
         divided_road = Pavement(layers, rigid_base=road.rigid_base)
         parts = tuple(number for number, layer in enumerate(layers) if layer.depends_on_stress)
-        depths, vertical = _own_weight(divided_road)
+        depths, vertical = _overburden(divided_road)
         pressure = np.array([_material(layers[number]).earth_pressure for number in parts])
         at = list(parts)
         return cls(divided_road, tuple(owner), parts, depths[at], vertical[at], pressure * vertical[at])
@@ -105,7 +105,7 @@ def _parts(layer: Layer, top: float) -> list[Layer]:
     ]
 
 
-def _own_weight(road: Pavement) -> tuple[Array, Array]:
+def _overburden(road: Pavement) -> tuple[Array, Array]:
     """Depth at which each layer's stress is taken, m, and the vertical stress of the road's weight there, Pa."""
     depths, stresses = [], []
     top = above = 0.0

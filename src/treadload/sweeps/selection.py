@@ -21,8 +21,8 @@ _WORDS = {"max": "largest", "min": "smallest", "mean": "mean"}
 # Prefixes of names: a mean_stress is something else.
 _LABELS = {"max": "max", "min": "min", "mean": "mean_of"}
 _SELECTOR = re.compile(r"(?:(?P<how>\w+)\()?(?:(?P<part>\w+)\.)?(?P<name>\w+)\)?")
-# Parts with places of their own: sections, whose depths are not those of the maps.
-_OF_THEIR_OWN = ("slice_along", "slice_across", "bowl")
+# Sections, whose places and depths are not those of the maps.
+_SECTIONS = ("slice_along", "slice_across", "bowl")
 # Dimensions that a reduction leaves: it goes over the places of a plane, or of a way.
 _PLACES = ("y", "x", "point", "position", "road_x")
 
@@ -92,7 +92,7 @@ def read(
         if reading.how:
             over = [dim for dim in array.dims if dim in _PLACES]
             array = array.reduce(REDUCTIONS[reading.how], over) if over else array
-        elif reading.part in _OF_THEIR_OWN:
+        elif reading.part in _SECTIONS:
             # Where a section crosses the wheel differs from case to case; worst_x and worst_y say it.
             array = array.squeeze([dim for dim in array.dims if array.sizes[dim] == 1], drop=True)
             array = array.rename({dim: f"{reading.part}_{dim}" for dim in array.dims})

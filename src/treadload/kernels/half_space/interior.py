@@ -23,7 +23,7 @@ from treadload.kernels.gridding.gridded import Method, on_grid
 from treadload.kernels.gridding.lattice import Corner, Corners, Indices, Source, of_corners, over_depths
 from treadload.kernels.gridding.precorrected import Keeper
 from treadload.kernels.half_space.corners import SNAP, at_corners, is_surface, snapped
-from treadload.kernels.half_space.upright import Medium, fields_of, own_share
+from treadload.kernels.half_space.upright import Medium, fields_of, horizontal_stress_ratio
 
 _XX, _YY, _ZZ, _XY, _XZ, _YZ = range(6)
 _P, _QX, _QY = range(3)
@@ -140,7 +140,7 @@ def _add_standing_load(
     ny, nx = load.shape[-2:]
     share_x, share_y = _share(x[:, None] - dx * np.arange(nx), dx), _share(y[:, None] - dy * np.arange(ny), dy)
     at_rest = share_y @ load @ share_x.T
-    share = own_share(poisson)
+    share = horizontal_stress_ratio(poisson)
     for row in rows:
         local = weights[row] * at_rest
         stress[row, _XX] += share * local[_P]

@@ -177,8 +177,8 @@ def fields_of(
     return fields(functions(1.0), medium, moves=moves)
 
 
-def own_share(medium: Medium) -> float:
-    """σ_xx and σ_yy of a uniform pressure where it stands itself on the surface, over it."""
+def horizontal_stress_ratio(medium: Medium) -> float:
+    """σ_xx and σ_yy over the pressure, on the surface below a uniform pressure."""
     return medium.beneath if isinstance(medium, UprightMedium) else -2 * medium
 
 

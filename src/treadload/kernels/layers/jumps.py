@@ -131,12 +131,12 @@ class _Upper:
             bare.append((plane, transverse))
             compliances.append(_through(k, spring, plane, transverse))
             plane, transverse = compliances[-1]
-            slab_stiffness, own_transverse = _stiffness(slab)
+            slab_stiffness, slab_transverse = _stiffness(slab)
             c, t = _compliance(slab), _turned(slab)
             rest = _times(plane, _inverse(_unit(k) + _times(c, plane)))
             plane = slab_stiffness + _times(np.swapaxes(t, 0, 1), _times(rest, t))
             swaying = transverse / (1 + slab.c_transverse * transverse)
-            transverse = own_transverse + slab.t_transverse**2 * swaying
+            transverse = slab_transverse + slab.t_transverse**2 * swaying
         return cls(k, slabs, springs, plane, transverse, bare, compliances)
 
     def up(

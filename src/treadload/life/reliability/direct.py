@@ -13,7 +13,7 @@ from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress
 from treadload.life.design import Design
-from treadload.life.reliability.inputs import Input, asked_at
+from treadload.life.reliability.inputs import Input, question_at
 from treadload.life.reliability.propagation import Quadratic, first_order
 from treadload.life.variants import Solver, most
 
@@ -48,7 +48,9 @@ class Direct:
         criterion, life = self.life.criteria[number], self.life
         pairs, _ = most(life.dataset["damage_share"].to_numpy()[number], coverage)
         solver = Solver(criterion, pairs, self.design.contacts, self.progress)
-        questions = [asked_at(self.inputs, self.design.road, life.traffic, life.climate, point) for point in points]
+        questions = [
+            question_at(self.inputs, self.design.road, life.traffic, life.climate, point) for point in points
+        ]
         damage = np.array(solver.damages(questions, self.pool))
         if not (damage > 0).all():
             raise InputError(

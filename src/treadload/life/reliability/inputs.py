@@ -63,10 +63,10 @@ def inputs_of(road: Pavement, scatter: Scatter) -> tuple[tuple[Input, ...], tupl
     return tuple(inputs), tuple(skipped)
 
 
-def asked_at(
+def question_at(
     inputs: Sequence[Input], road: Pavement, traffic: Traffic, climate: Climate, point: Sequence[float]
 ) -> Question:
-    """The question with each input so many deviations away."""
+    """Road, traffic and climate with each input at a number of deviations from its mean."""
     for unsure, z in zip(inputs, point, strict=True):
         road, climate = unsure.change(road, climate, float(z))
     return road, traffic, climate

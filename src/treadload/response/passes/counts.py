@@ -20,7 +20,7 @@ from treadload.response.passes.steady import Track
 from treadload.response.passes.stepping import Outcome, Record
 
 
-def told_counts(passes: int) -> Iterator[float]:
+def reported_counts(passes: int) -> Iterator[float]:
     """1, 2, 5, 10, … up to a number of passes, and that number."""
     for power in itertools.count():
         for digit in (1, 2, 5):
@@ -85,7 +85,7 @@ def by_power_law(question: Problem, passes: int, laws: set[type]) -> tuple[Box, 
     by_place = power_law_strain(wide, materials, [right - place for place in places], box.ny)
     exponents = np.array([0.0 if material is None else _law(material).exponent for material in materials])[:, None]
     records, last = [], np.zeros((6, *box.shape))
-    for number in told_counts(passes):
+    for number in reported_counts(passes):
         # Each place has had its part of the passes, and all follow the law of their number.
         strain = by_place * number**exponents
         records.append(
