@@ -15,6 +15,8 @@ from treadload.kernels.gridding.precorrected import FINE, FINEST, Kept, interpol
 
 # Measured, in pairs of a point and a cell: a padded cell of a lattice, and a cell near a point, corrected.
 _LATTICE_COST, _NEAR_COST = 3.0, 0.5
+# The same whatever their size: of each lattice, whose kernels and transforms are called in turn, and of corrections.
+_EACH_LATTICE, _CORRECTIONS = 8000.0, 30_000.0
 
 Method = Literal["auto", "fft", "precorrected", "direct"]
 _Way = tuple[float, str, int]
@@ -67,9 +69,10 @@ def _cheapest(
     """Cost, way, and nodes in the shorter side of a cell to interpolate from, at each depth."""
     ny, nx = source.load.shape[-2:]
     sides = ((nx, x, source.dx), (ny, y, source.dy))
-    padded = math.prod(padded_cells(at, size, cells) for cells, at, size in sides)
+    formed = [padded_cells(at, size, cells) for cells, at, size in sides]
+    padded, lattices = (math.prod(numbers) for numbers in zip(*formed, strict=True))
     ways: list[_Way] = [
-        (_LATTICE_COST * padded, "fft", 0),
+        (_LATTICE_COST * padded + _EACH_LATTICE * lattices, "fft", 0),
         (len(x) * len(y) * (nx + 1.0) * (ny + 1.0), "direct", 0),
     ]
     order, ready = (FINE, set()) if kept is None else (kept.order, kept.ready)
@@ -93,7 +96,7 @@ def _cheapest(
             math.prod(2.0 * (cells + 1) for cells in window(source, depth, nodes, order)) for _, _, nodes in among
         ]
         corrected = [
-            (cost + _NEAR_COST * len(x) * len(y) * cells, name, nodes)
+            (cost + _CORRECTIONS + _NEAR_COST * len(x) * len(y) * cells, name, nodes)
             for (cost, name, nodes), cells in zip(among, near, strict=True)
         ]
         return min(way for way in [*ways, *corrected] if method in ("auto", way[1]))

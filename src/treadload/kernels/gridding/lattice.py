@@ -343,12 +343,12 @@ def as_lattices(x: Array, dx: float, cells: int) -> list[tuple[float, int, Indic
     return lattices
 
 
-def padded_cells(x: Array, dx: float, cells: int) -> int:
-    """Cells of the lattices that coordinates form and of the load, of all lattices together, as in `as_lattices`."""
+def padded_cells(x: Array, dx: float, cells: int) -> tuple[int, int]:
+    """Cells of the lattices that coordinates form and of the load, of all lattices of `as_lattices`; their number."""
     _, whole, (order, cuts) = _runs(x, dx, cells)
     rising = whole[order]
     counts = rising[np.append(cuts - 1, len(x) - 1)] - rising[np.append(0, cuts)] + 1
-    return int(counts.sum()) + cells * len(counts)
+    return int(counts.sum()) + cells * len(counts), len(counts)
 
 
 def _runs(x: Array, dx: float, cells: int) -> tuple[Array, Array, tuple[Indices, Indices]]:
