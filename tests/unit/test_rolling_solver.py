@@ -1,5 +1,7 @@
 """solve_rolling and solve_shift: forces and creepages, limits of friction, starts, and what they raise."""
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -127,6 +129,18 @@ def test_rolling_falls_back_on_splitting(monkeypatch):
     np.testing.assert_allclose(found.shear, wanted.shear, atol=1e-4 * (MU * PATCH.normal.pressure).max())
 
 
+@pytest.fixture
+def fewer_steps(monkeypatch):
+    """A quarter of Newton's steps and a 25th of those of splitting: for what cannot converge, and is raised then."""
+    newton, split = tangential.coulomb_newton.solve, tangential.coulomb_splitting.split
+    for module, name, real, steps in (
+        (tangential.coulomb_newton, "solve", newton, 15),
+        (tangential.coulomb_splitting, "split", split, 200),
+    ):
+        monkeypatch.setattr(module, name, functools.partial(real, max_iterations=steps))
+
+
+@pytest.mark.usefixtures("fewer_steps")
 @pytest.mark.parametrize(
     ("part", "remedy"), [(0.5, "raise the tolerance"), (0.95, "95 % of friction: prescribe the creepage instead")]
 )
@@ -165,6 +179,7 @@ def test_a_shift_without_friction_slips_freely():
     np.testing.assert_array_equal(found.slip, rigid)
 
 
+@pytest.mark.usefixtures("fewer_steps")
 def test_a_shift_beyond_friction_does_not_converge():
     none = np.zeros((2, *PATCH.contact.shape))
     with pytest.raises(ConvergenceError, match="prescribe the shift instead") as caught:
