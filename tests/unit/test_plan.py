@@ -22,19 +22,19 @@ material = { modulus = "100 MPa", poisson = 0.35 }
 def on_layers():
     start, end = COARSE_CASE.index("[[pavement.layers]]"), COARSE_CASE.index("[rolling]")
     return (
-        COARSE_CASE[:start]
+        COARSE_CASE[:start].replace("12 mm", "24 mm")
         + LAYERS
         + COARSE_CASE[end:].replace("[response]", "[response]\nwheels = [{}, { y = 0.4 }]")
     )
 
 
-@pytest.mark.parametrize("toml", [COARSE_CASE, on_layers()], ids=["half-space", "layers"])
-def test_the_plan_is_what_is_solved(toml):
+@pytest.mark.parametrize(("toml", "side"), [(COARSE_CASE, 12), (on_layers(), 24)], ids=["half-space", "layers"])
+def test_the_plan_is_what_is_solved(toml, side):
     case = tl.Case.from_text(toml)
     text = plan(case)
     result = run(case)
     contact, response = result.contact.dataset.sizes, result.response.dataset.sizes
-    assert f"contact   {contact['x']} x {contact['y']} cells of 12 x 12 mm" in text
+    assert f"contact   {contact['x']} x {contact['y']} cells of {side} x {side} mm" in text
     assert f"response  {response['x']} x {response['y']} points at 2 depth(s), 0, 20 mm" in text
     along, across = result.slice_along.dataset.sizes, result.slice_across.dataset.sizes
     assert f"slices    {along['x']} and {across['y']} points at {along['depth']} depths" in text
