@@ -80,12 +80,14 @@ class State:
 
     stage: the step. pressure: (ny, nx), Pa. tangential: shear on body 1, slip over the step, m, and the rigid
     displacement that was not known, m. normal: the normal contact, None where the pressure was given.
+    change: of the pressure in the last round of the coupling between pressure and shear, relative.
     """
 
     stage: Stage
     pressure: Array
     tangential: TangentialSolution
     normal: NormalSolution | None = None
+    change: float = 0.0
 
     @property
     def displaced(self) -> tuple[float, float]:
@@ -272,7 +274,7 @@ def _press(
         normal = _normal(influence, gap + offset, stage, before, _SHARE * within)
         change = float(np.linalg.norm(normal.pressure - before) / np.linalg.norm(before))
         if max(change, fitting.residual) <= tolerance:
-            return State(stage, before, counted, fitting)
+            return State(stage, before, counted, fitting, change)
         if change <= tolerance:
             within *= _TIGHTER
         start = tangential
