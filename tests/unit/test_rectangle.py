@@ -123,7 +123,7 @@ def test_combined_elasticity():
     assert one.contact_modulus == pytest.approx(other.contact_modulus)
     # 1/E* = (1 - ν1²)/E1 + (1 - ν2²)/E2 with E = 2G(1 + ν).
     assert 1 / one.contact_modulus == pytest.approx((1 - 0.2) / (2 * 1.0) + (1 - 0.4) / (2 * 5.0))
-    rigid = CombinedElasticity.of(1.0, 0.0, float("inf"), 0.3)
-    # An incompressible body on a rigid one is decoupled, ν = 0 on a rigid one has the largest β.
-    assert rigid.dundurs == pytest.approx(0.5)
-    assert CombinedElasticity.of(1.0, 0.5, float("inf"), 0.3).dundurs == pytest.approx(0.0)
+    # Dundurs' β = K/(1-ν): an incompressible body on a rigid one is decoupled, ν = 0 has the largest β.
+    rigid, soft = (CombinedElasticity.of(1.0, poisson, float("inf"), 0.3) for poisson in (0.0, 0.5))
+    assert rigid.difference / (1 - rigid.poisson) == pytest.approx(0.5)
+    assert soft.difference / (1 - soft.poisson) == pytest.approx(0.0)

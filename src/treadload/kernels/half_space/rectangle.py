@@ -51,11 +51,6 @@ class CombinedElasticity:
         """E* = G/(1-ν), Pa."""
         return self.shear_modulus / (1 - self.poisson)
 
-    @property
-    def dundurs(self) -> float:
-        """Dundurs' β = K/(1-ν): how strongly pressure and shear are coupled, |β| ≤ 0.5."""
-        return self.difference / (1 - self.poisson)
-
 
 def normal_by_pressure(
     ny: int, nx: int, dx: float, dy: float, bodies: CombinedElasticity, first: float = 0.0

@@ -11,9 +11,10 @@ import scipy
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, BoolArray
+from treadload.tire.cells import from_neighbours
 
-# Cells of a map, and neighbours that a cell between pixels takes its mean from.
-_MOST, _ENOUGH = 25_000_000, 5
+# Cells of a map at most.
+_MOST = 25_000_000
 # Directions of travel in the frame of the points: (x ahead, y to the right) as rows of a turn about the height.
 TRAVEL = {
     "right": ((1, 0), (0, 1)),
@@ -73,16 +74,10 @@ def onto_cells(x: Array, y: Array, height: Array, deviation: Array, spacing: flo
     cell = np.rint((y - first) / spacing).astype(np.int64) * nx + np.rint((x - left) / spacing).astype(np.int64)
     count = np.bincount(cell, minlength=nx * ny)
     with np.errstate(invalid="ignore", divide="ignore"):
-        mean = (np.bincount(cell, height, nx * ny) / count).reshape(ny, nx)
-        spread = (np.sqrt(np.bincount(cell, deviation**2, nx * ny)) / count).reshape(ny, nx)
-    filled = 0
-    for values in (mean, spread):
-        finite = np.isfinite(values)
-        around = np.ones((3, 3))
-        near = scipy.ndimage.convolve(finite.astype(float), around, mode="constant")
-        total = scipy.ndimage.convolve(np.where(finite, values, 0.0), around, mode="constant")
-        between = ~finite & (near >= _ENOUGH)
-        values[between] = total[between] / near[between]
-        filled = max(filled, int(between.sum()) if values is mean else 0)
+        mean: Array = (np.bincount(cell, height, nx * ny) / count).reshape(ny, nx)
+        spread: Array = (np.sqrt(np.bincount(cell, deviation**2, nx * ny)) / count).reshape(ny, nx)
+    without_point = int(np.isnan(mean).sum())
+    mean, spread = from_neighbours(mean), from_neighbours(spread)
+    filled = without_point - int(np.isnan(mean).sum())
     grid = Grid(nx, ny, spacing, spacing, -0.5 * (nx - 1) * spacing, -0.5 * (ny - 1) * spacing)
     return CellMeans(grid, mean, spread, filled)

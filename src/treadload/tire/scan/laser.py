@@ -9,9 +9,7 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-import scipy
 import xarray as xr
-from numpy.typing import NDArray
 
 from treadload.describing import Described
 from treadload.errors import GeometryError, InputError
@@ -19,6 +17,7 @@ from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.registry import READERS
 from treadload.rows import Row, row
+from treadload.tire.cells import from_neighbours
 from treadload.tire.scan.cloud import bridged
 from treadload.tire.scan.laser_file import Lines, read_laser_file, read_lines
 from treadload.tire.scan.mesh_file import Triangles
@@ -130,7 +129,7 @@ def piece_of_lines(path: str | os.PathLike[str]) -> LaserPiece:
     count = np.bincount(key, minlength=grid.nx * grid.ny)
     with np.errstate(invalid="ignore", divide="ignore"):
         mean = (np.bincount(key, level, grid.nx * grid.ny) / count).reshape(grid.shape)
-    filled = _between(np.asarray(mean, dtype=np.float64))
+    filled = from_neighbours(np.asarray(mean, dtype=np.float64))
     gap = np.nanmax(filled) - filled
     about = {"laser": name, "dx": grid.dx, "dy": grid.dy}
     data = dataset({"initial_gap": (("y", "x"), gap)}, {"x": grid.x, "y": grid.y}, **about)
@@ -185,15 +184,3 @@ def _plane_on_tops(ahead: Array, right: Array, height: Array) -> tuple[float, fl
             break
         used = tops
     return float(slopes[0]), float(slopes[1])
-
-
-def _between(mean: Array) -> Array:
-    """Cells without a point, from their neighbours where five or more have one."""
-    finite = np.isfinite(mean)
-    around = np.ones((3, 3))
-    near = scipy.ndimage.convolve(finite.astype(float), around, mode="constant")
-    total = scipy.ndimage.convolve(np.where(finite, mean, 0.0), around, mode="constant")
-    empty: NDArray[np.bool_] = ~finite & (near >= 5)
-    out = mean.copy()
-    out[empty] = total[empty] / near[empty]
-    return out
