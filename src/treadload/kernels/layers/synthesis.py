@@ -113,7 +113,7 @@ class ElasticPlane:
     poisson: float
     limit: float
     lift: float | None = None
-    _tables: dict[int, Table] = field(default_factory=dict, repr=False)
+    _tables: dict[tuple[int, type[np.floating]], Table] = field(default_factory=dict, repr=False)
 
     def radial(
         self, log_k: Array, functions: Sequence[int], smallest: float, precision: type[np.floating]
@@ -122,10 +122,11 @@ class ElasticPlane:
 
         log_k: ln |k|, (nky, nkx). functions: those to give. smallest: of all k that will be asked for, 1/m.
         """
-        decade = math.floor(math.log(smallest) / _DECADE)
-        if decade not in self._tables:
-            self._tables[decade] = tabulated(self._functions, math.exp(_DECADE * decade), 1.5 * self.limit)
-        values = np.moveaxis(self._tables[decade](log_k, functions), -1, 0)
+        key = decade, _ = math.floor(math.log(smallest) / _DECADE), precision
+        if key not in self._tables:
+            lowest = math.exp(_DECADE * decade)
+            self._tables[key] = tabulated(self._functions, lowest, 1.5 * self.limit, precision)
+        values = np.moveaxis(self._tables[key](log_k, functions), -1, 0)
         return dict(zip(functions, values.astype(precision, order="C"), strict=True))
 
     def _functions(self, k: Array) -> Array:

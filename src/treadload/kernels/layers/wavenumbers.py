@@ -25,8 +25,8 @@ _RATIO = 3.0
 _PHASE, _POINTS = 7.0, 14
 # Where every feature of the field is far larger than the panel, fewer points give the same.
 _CALM, _LEAST_POINTS = 0.02, 8
-# Interpolation in ln k: steps of this size with polynomials of this degree leave 1e-11.
-_STEP, _DEGREE = 0.15, 7
+# Interpolation in ln k: steps of this size with polynomials of this degree leave 1e-11, in single precision 1e-8.
+_STEP, _DEGREE, _SINGLE_DEGREE = 0.15, 7, 5
 
 Spectrum = Callable[[Array, Array], ComplexArray]
 """(kx, ky) → pressure, shear x, shear y (2, 3, nky, nkx): their parts even and odd in ky."""
@@ -105,24 +105,31 @@ Table = Callable[[Array, Sequence[int]], Array]
 """(ln k (...), numbers of functions (m,)) → (..., m)."""
 
 
-def tabulated(values: Callable[[Array], Array], smallest: float, largest: float) -> Table:
+def tabulated(
+    values: Callable[[Array], Array], smallest: float, largest: float, precision: type[np.floating] = np.float64
+) -> Table:
     """Functions of k that are smooth in ln k, as piecewise polynomials.
 
-    values: wavenumbers (n,) → (all functions, n). smallest, largest: range, 1/m.
+    values: wavenumbers (n,) → (all functions, n). smallest, largest: range, 1/m. precision: in which what is
+    interpolated is used.
     """
     start, stop = math.log(smallest) - 1e-6, math.log(largest) + 1e-6
     panels = max(1, math.ceil((stop - start) / _STEP))
     edges = np.linspace(start, stop, panels + 1)
     width = edges[1] - edges[0]
-    count = _DEGREE + 1
+    count = 1 + (_SINGLE_DEGREE if precision is np.float32 else _DEGREE)
     chebyshev = 0.5 - 0.5 * np.cos(math.pi * (np.arange(count) + 0.5) / count)
     samples = values(np.exp(edges[:-1, None] + width * chebyshev).ravel())
     samples = samples.reshape(len(samples), panels, count).transpose(2, 1, 0)
     powers = np.linalg.inv(np.vander(chebyshev, count))
     coefficients = np.tensordot(powers, samples, axes=1) / (width ** np.arange(count)[::-1])[:, None, None]
 
+    @cache
+    def polynomials(functions: tuple[int, ...]) -> scipy.interpolate.PPoly:
+        return scipy.interpolate.PPoly(coefficients[..., functions], edges)
+
     def at(log_k: Array, functions: Sequence[int]) -> Array:
-        result: Array = scipy.interpolate.PPoly(coefficients[..., list(functions)], edges)(log_k)
+        result: Array = polynomials(tuple(functions))(log_k)
         return result
 
     return at
