@@ -62,7 +62,7 @@ def principal_values(tensor: Array) -> Array:
     left: those points go to LAPACK's symmetric solver. Errors are round-off of the largest value either way.
     Source: Smith (1961), Commun. ACM 4, 168.
     """
-    tensor, unit = _in_its_own_unit(tensor)
+    tensor, unit = _scaled(tensor)
     middle, size, half, angle = _cubic(tensor)
     first, last = 2 * size * np.cos(angle), 2 * size * np.cos(angle + 2 * np.pi / 3)
     values = np.stack([middle + first, middle - first - last, middle + last])
@@ -78,7 +78,7 @@ def largest_principal(tensor: Array) -> Array:
 
     It keeps its digits where the other two come near each other.
     """
-    tensor, unit = _in_its_own_unit(tensor)
+    tensor, unit = _scaled(tensor)
     middle, size, half, angle = _cubic(tensor)
     values = middle + 2 * size * np.cos(angle)
     close = ~(half > -_APART)
@@ -87,7 +87,7 @@ def largest_principal(tensor: Array) -> Array:
     return np.asarray(values * unit)
 
 
-def _in_its_own_unit(tensor: Array) -> tuple[Array, float]:
+def _scaled(tensor: Array) -> tuple[Array, float]:
     """Components in double precision whose squares neither overflow nor vanish, and the unit that they are in.
 
     A power of two, so that no digit changes. Single numbers would leave the root of their round-off where two values

@@ -56,7 +56,7 @@ class Passing:
     reach: float = SHORTEST
 
     def depth(self, number: int) -> float:
-        """At which one of its criteria reads, m."""
+        """At which a criterion, by number, is evaluated, m."""
         return self.warm.criteria[number].depth(self.warm.road)
 
     def criterion(self, number: int) -> Criterion:
@@ -65,7 +65,7 @@ class Passing:
         return criterion.passing(self.wheels.speed, self.depth(number), self.wheels.length)
 
     def depths(self, number: int) -> tuple[float, ...]:
-        """Of which one of its criteria reads the largest, m."""
+        """Of which a criterion, by number, takes the largest value, m."""
         return self.warm.criteria[number].depths(self.warm.road)
 
     def plane(self, number: int) -> Plane:
@@ -201,16 +201,16 @@ def _pass(
         task, levels = tasks[number], list(data["depth"].to_numpy())
         far = None if basin is None or around is None else basin.lines(around[number])
         for k in numbers:
-            own_rows = [levels.index(depth) for depth in task.depths(k)]
-            whole = own_rows == list(range(len(levels)))
-            at = data if whole else data.isel(depth=own_rows)
+            depth_rows = [levels.index(depth) for depth in task.depths(k)]
+            whole = depth_rows == list(range(len(levels)))
+            at = data if whole else data.isel(depth=depth_rows)
             criterion, result = task.criterion(k), results[number][k]
             if basin is None or far is None:
                 fields, ends = _read(result, criterion, at, task, plane, lines)
                 if ends and plane.margin < task.reach:
                     again.setdefault(number, []).append(k)
             else:
-                away, outside = (part if whole else part.isel(depth=own_rows) for part in far)
+                away, outside = (part if whole else part.isel(depth=depth_rows) for part in far)
                 fields = _read_both(result, criterion, (at, outside, away), task, lines, basin)
             worst.append((criterion, fields, result))
     _add_cracks(worst, lines.nearest, turns)
