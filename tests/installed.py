@@ -15,7 +15,9 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+import urllib.request
 from pathlib import Path
 
 TESTS = Path(__file__).parent
@@ -23,8 +25,7 @@ README = TESTS.parent / "README.md"
 # Pages whose blocks are run after those of the README.
 PAGES = ("docs/howto/command_line.md", "docs/tutorials/hot_road.md")
 SECONDS = 900.0
-# A page is served until it is stopped, and every row of the validation takes minutes.
-LEFT_OUT = ("app", "validate")
+ADDRESS = re.compile(r"http://\S+")
 TITLE = re.compile(r"^│ ([a-z][a-z-]*) ", re.MULTILINE)
 BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
 
@@ -54,8 +55,9 @@ def steps(program: list[str], environment: dict[str, str], validate: bool) -> li
     found += [(f"{name} --help", [*program, name, "--help"]) for name in commands(program, environment)]
     found += [("init calibrate", [*program, "init", "calibrate", "-o", "fit.toml"])]
     for line in lines:
-        if line[1] not in LEFT_OUT or (validate and line[1] == "validate"):
-            found.append((" ".join(line), [*program, *line[1:]]))
+        # Every row of the validation takes minutes.
+        if "validate" not in line or validate:
+            found.append((" ".join(line), [*program, *line[1:], *(["--no-open"] if "app" in line else [])]))
     # Last, as they may open what the commands wrote.
     found += [(f"Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)]
     return found
@@ -74,6 +76,49 @@ def files() -> None:
     Path("print.asf").write_text(tekscan([ribbed().pressure / 1e3]), encoding="latin-1")
 
 
+def finished(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
+    """(exit status, what was printed) of a command that ends by itself."""
+    try:
+        done = subprocess.run(
+            command,
+            capture_output=True,
+            text=True,
+            encoding="utf-8",
+            errors="replace",
+            env=environment,
+            timeout=SECONDS,
+        )
+    except subprocess.TimeoutExpired:
+        return -1, f"no end within {SECONDS:g} s"
+    return done.returncode, done.stdout + done.stderr
+
+
+def served(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
+    """(0 where the page of `treadload app` is sent to who has its address, what was printed); ends the server."""
+    server = subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, encoding="utf-8", env=environment
+    )
+    # A server that never states its address is ended too.
+    limit = threading.Timer(SECONDS, server.kill)
+    limit.start()
+    printed, complete = "", False
+    for line in server.stdout:
+        printed += line
+        if address := ADDRESS.search(line):
+            # The first request brings the cookie, with which the second brings the page.
+            browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
+            try:
+                for url in (address[0], address[0].partition("?")[0]):
+                    with browser.open(url, timeout=60) as answer:
+                        complete = "Normal load" in answer.read().decode()
+            except OSError as error:
+                printed += f"{error}\n"
+            server.terminate()
+    limit.cancel()
+    server.wait()
+    return int(not complete), printed
+
+
 def main() -> int:
     """Run every step; 1 if one fails."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -88,14 +133,7 @@ def main() -> int:
         environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg", "PYTHONUTF8": "1"}
         for name, command in steps([sys.executable, "-P", "-m", "treadload"], environment, validate):
             began = time.perf_counter()
-            try:
-                done = subprocess.run(
-                    command, capture_output=True, text=True, encoding="utf-8", errors="replace", env=environment,
-                    timeout=SECONDS,
-                )  # fmt: skip
-                code, printed = done.returncode, done.stdout + done.stderr
-            except subprocess.TimeoutExpired:
-                code, printed = -1, f"no end within {SECONDS:g} s"
+            code, printed = (served if "--no-open" in command else finished)(command, environment)
             word = "ok" if code == 0 else f"FAILED ({code})"
             print(f"{time.perf_counter() - began:6.1f} s  {word:12}  {name}", flush=True)
             if code or "Traceback" in printed:
