@@ -36,7 +36,12 @@ def commands(program: list[str], environment: dict[str, str]) -> list[str]:
     return TITLE.findall(listed.stdout.partition("Commands")[2])
 
 
-def steps(program: list[str], environment: dict[str, str], validate: bool) -> list[tuple[str, list[str]]]:
+def pages_served(program: list[str], lines: list[list[str]]) -> list[tuple[str, list[str]]]:
+    """(name, command) of every line that serves a page."""
+    return [(" ".join(line), [*program, *line[1:], "--no-open"]) for line in lines if "app" in line]
+
+
+def steps(program: list[str], environment: dict[str, str], validate: bool, page: bool) -> list[tuple[str, list[str]]]:
     """(name, command) of every step, in order."""
     pages = [README, *(TESTS.parent / page for page in PAGES)]
     blocks = [block for page in pages for block in BLOCK.findall(page.read_text(encoding="utf-8"))]
@@ -51,13 +56,15 @@ def steps(program: list[str], environment: dict[str, str], validate: bool) -> li
     ]
     # A line that stands on two pages is run once: the second `treadload init` would find its file.
     lines = [line for number, line in enumerate(lines) if line not in lines[:number]]
+    if page:
+        return pages_served(program, lines)
     found = [("version", [*program, "--version"])]
     found += [(f"{name} --help", [*program, name, "--help"]) for name in commands(program, environment)]
     found += [("init calibrate", [*program, "init", "calibrate", "-o", "fit.toml"])]
     for line in lines:
         # Every row of the validation takes minutes.
-        if "validate" not in line or validate:
-            found.append((" ".join(line), [*program, *line[1:], *(["--no-open"] if "app" in line else [])]))
+        if "app" not in line and ("validate" not in line or validate):
+            found.append((" ".join(line), [*program, *line[1:]]))
     # Last, as they may open what the commands wrote.
     found += [(f"Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)]
     return found
@@ -123,7 +130,8 @@ def main() -> int:
     """Run every step; 1 if one fails."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--validate", action="store_true", help="validate too, which takes minutes")
-    validate = parser.parse_args().validate
+    parser.add_argument("--page", action="store_true", help="the commands that serve the page, and nothing else")
+    options = parser.parse_args()
     failed = []
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
@@ -131,7 +139,9 @@ def main() -> int:
         home = Path(folder) / "home"
         home.mkdir()
         environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg", "PYTHONUTF8": "1"}
-        for name, command in steps([sys.executable, "-P", "-m", "treadload"], environment, validate):
+        for name, command in steps(
+            [sys.executable, "-P", "-m", "treadload"], environment, options.validate, options.page
+        ):
             began = time.perf_counter()
             code, printed = (served if "--no-open" in command else finished)(command, environment)
             word = "ok" if code == 0 else f"FAILED ({code})"
