@@ -12,7 +12,6 @@ import subprocess
 import sys
 import tempfile
 import time
-from contextlib import ExitStack
 from pathlib import Path
 
 from timing import print_table
@@ -99,7 +98,8 @@ def smallest(rows):
 
 
 def visited(browser, address):
-    """A fresh browser on the page, solved and drawn."""
+    """A fresh browser on the page of a server that has started, solved and drawn."""
+    time.sleep(5)
     context = browser.new_context(viewport={"width": 1280, "height": 860})
     page = context.new_page()
     page.set_default_timeout(180_000)
@@ -152,26 +152,24 @@ def main(repeats=5):
     except ImportError:
         print("The page: needs playwright\n")
         return
-    with sync_playwright() as playwright, ExitStack() as started:
+    with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
         sights = []
+        # The address of a server opens in the first browser alone, so that each first sight has its server.
         for _ in range(max(1, repeats // 2 - 1)):
-            # The address of a server opens in the first browser alone.
             with Serving() as serving:
-                time.sleep(5)
                 page, sight = visited(browser, serving.address)
                 sights.append(sight)
                 page.context.close()
-        serving = started.enter_context(Serving())
-        time.sleep(5)
-        page, sight = visited(browser, serving.address)
-        sights.append(sight)
-        changes = [changed(page, serving, 33 + number) for number in range(repeats)]
-        page.wait_for_timeout(1000)
-        page.locator("#along").click()
-        page.locator("#place").focus()
-        moves = [slid(page) for _ in range(repeats)]
-        figures = page.evaluate("window.treadloadTimes")
+        with Serving() as serving:
+            page, sight = visited(browser, serving.address)
+            sights.append(sight)
+            changes = [changed(page, serving, 33 + number) for number in range(repeats)]
+            page.wait_for_timeout(1000)
+            page.locator("#along").click()
+            page.locator("#place").focus()
+            moves = [slid(page) for _ in range(repeats)]
+            figures = page.evaluate("window.treadloadTimes")
         browser.close()
     told = f"smallest of some, load of the machine {os.getloadavg()[0]:.1f}"
     for title, rows in (("first sight", sights), ("a case of 3 mm, load changed", changes), ("slider", moves)):

@@ -14,10 +14,9 @@ EMPTY = frozenset(
 )
 # Words that name nothing inside a longer name either: `own_rows`, `told_counts`.
 EMPTY_PARTS = frozenset(("own", "told", "asked", "said"))
-# Uses that stand: a field of result files, what other packages override, and rows of a passage.
+# Uses that stand: a field of result files, and what other packages override.
 LEFT = {
     "damage/growth/solution.py": 1, "app/page_frame.py": 2, "app/network_page.py": 1, "app/study_page.py": 1,
-    "life/passage.py": 4, "kernels/tensors.py": 3,
 }  # fmt: skip
 
 

@@ -69,12 +69,12 @@ def _run(host: str, port: int, links: Links, service: Service, *, open_browser: 
     engines, proxy = Engines(service.limits), service.proxy
     sessions = Sessions(engines, links.folder)
     keys = Keys(host, port, links.use, sessions.end, _is_connected, proxy=proxy)
-    forms = FirstForms()
-    prepare(keys, sessions, forms)
+    forms, pages = FirstForms(), registered_pages()
+    prepare(keys, sessions, forms, pages)
 
     async def ready() -> None:
         engines.warm()
-        for command in dict.fromkeys(page.command for page in registered_pages()):
+        for command in dict.fromkeys(page.command for page in pages):
             background_tasks.create(forms.ready(command))
         background_tasks.create(announce())
 
@@ -122,11 +122,12 @@ class FirstForms:
 
     async def ready(self, command: str) -> None:
         """Return once it is read; at once for "", which is no command."""
-        if command and command not in self._tasks:
+        if not command:
+            return
+        if command not in self._tasks:
             self._tasks[command] = asyncio.create_task(self._read(command))
-        if command:
-            # A page that is closed meanwhile ends its wait, not the reading.
-            await asyncio.shield(self._tasks[command])
+        # A page that is closed meanwhile ends its wait, not the reading.
+        await asyncio.shield(self._tasks[command])
 
     async def _read(self, command: str) -> None:
         # Two at once would read the same libraries twice.
@@ -134,13 +135,12 @@ class FirstForms:
             await asyncio.to_thread(lambda: Form.first(command).parts(Path()))
 
 
-def prepare(keys: Keys, sessions: Sessions, forms: FirstForms) -> None:
-    """Put the page and its guard into the application."""
+def prepare(keys: Keys, sessions: Sessions, forms: FirstForms, pages: list[type[Page]]) -> None:
+    """Put the pages and their guard into the application."""
     logging.getLogger("nicegui").setLevel(logging.ERROR)
     # A bar over the page at each upload, which has no name for who does not see it.
     app.config.quasar_config["loadingBar"]["skipHijack"] = True
 
-    pages = registered_pages()
     for kind in pages:
         _page(keys, sessions, forms, kind, pages)
 

@@ -108,7 +108,7 @@ def _compliance(contact: Contact) -> RoadCompliance:
 
 
 def check_two_grids(tire: Tire | None) -> None:
-    """Raise InputError for what exists on fixed cells only; None stands for a recorded footprint."""
+    """Raise InputError for what exists on fixed cells only. None: a recorded footprint."""
     if what := only_on_fixed_cells(tire):
         raise InputError(f"an error estimate solves the contact on two grids, and {what} has one; leave it out")
 

@@ -122,7 +122,8 @@ class ElasticPlane:
 
         log_k: ln |k|, (nky, nkx). functions: those to give. smallest: of all k that will be asked for, 1/m.
         """
-        key = decade, _ = math.floor(math.log(smallest) / _DECADE), precision
+        decade = math.floor(math.log(smallest) / _DECADE)
+        key = (decade, precision)
         if key not in self._tables:
             lowest = math.exp(_DECADE * decade)
             self._tables[key] = tabulated(self._functions, lowest, 1.5 * self.limit, precision)

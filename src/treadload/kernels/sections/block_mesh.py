@@ -23,7 +23,6 @@ Sides = tuple[float, float, float, float]
 _AT_LEVEL, _LARGEST_UP, _LARGEST = 1 / 5, 1 / 3, 1 / 2
 # Where the element at a wall is split, as a part of it; the first element beside a wall, as a part of the largest.
 _AT_WALL, _BESIDE = 1 / 3, 1 / 2
-# How fast elements grow from a level or a wall.
 
 
 @dataclass(frozen=True)
