@@ -105,13 +105,14 @@ class Visitor:
         await self._say("event", id=key, listener_id=one["events"][0]["listener_id"], args=["{}"])
 
     async def until(self, *states):
-        """Wait for one of some states that comes after now."""
+        """Wait for one of some states that comes after now; returns the first of them."""
         known, end = len(self.states), time.monotonic() + _PATIENCE
-        while not any(one in states for one in self.states[known:]):
+        while not (seen := [state for state in self.states[known:] if state in states]):
             assert time.monotonic() < end, (states, self.states[known:])
             if self.listening.done():
                 raise ConnectionError(f"{self._lost()}, while it waited for {states} after {self.states[known:]}")
             await asyncio.sleep(0.02)
+        return seen[0]
 
     async def upload(self, size):
         """Send a file of so many bytes where results go; returns the status of the answer."""

@@ -100,8 +100,7 @@ class Visit(threading.Thread):
         self.states.append("serves")
         async with Visitor(server) as visitor:
             self.states.append("visited")
-            await visitor.until("ready", "done", "failed")
-            self.states.append(visitor.states[-1])
+            self.states.append(await visitor.until("ready", "done", "failed"))
 
     def stop(self) -> None:
         """End the visit, whatever it waits for."""
