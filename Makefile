@@ -34,6 +34,9 @@ $(LIGHT): pyproject.toml constraints.txt | $(BIN)/python
 demo: $(LIGHT)
 	$(BIN)/treadload demo --output demo
 
+# Two processes test: threads of linear algebra in each would wait for one another, and take half as long again.
+test test-slow test-browser: export OMP_NUM_THREADS := 1
+
 # Each process keeps to its files, whose fixtures are solved once.
 test: $(STAMP)
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not browser"

@@ -239,6 +239,16 @@ def test_places_under_the_tire_are_told_by_its_pressure():
         places_under(_slice().isel(depth=slice(1, None)))
 
 
+@pytest.mark.parametrize("noise", [0.0, 1e-9, -1e-9])
+def test_round_off_does_not_choose_a_place(noise):
+    """Of two mirrored ribs the one at positive y is named, whichever is larger by round-off."""
+    contact = _contact()
+    contact["pressure"] = 0.5 * (contact.pressure + contact.pressure.to_numpy()[::-1])
+    contact.pressure[:3] *= 1 + noise
+    places = places_under(contact)
+    assert [round(1e3 * y) for _, y in places.values()] == [0, 40, 50]
+
+
 def test_wrong_requests_are_refused(above):
     with pytest.raises(InputError, match="strains must be of xx, yy"):
         strain_profiles(above, {"a": (0, 0)}, strains=("xy",))

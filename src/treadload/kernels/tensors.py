@@ -10,6 +10,7 @@ import math
 import numpy as np
 
 from treadload.kernels.arrays import Array
+from treadload.kernels.largest import ALIKE
 
 # Where each entry of the 3 x 3 matrix stands in (xx, yy, zz, xy, xz, yz).
 _FULL = np.array([[0, 3, 4], [3, 1, 5], [4, 5, 2]])
@@ -114,25 +115,48 @@ def principal(tensor: Array) -> tuple[Array, Array]:
     """Principal values, largest first, and the direction of the largest.
 
     tensor: (6, ...). Returns values (3, ...) in the unit of the tensor and unit vectors (..., 3) in (x, y, z).
-    Of the two opposite vectors the one is given whose first non-zero component is positive. Where the
-    largest value is double, the direction is one of many. LAPACK's symmetric solver: 1.7 µs per point,
-    and orthogonal directions however close the values, which the trigonometric form does not give.
+    Of the two opposite vectors the one is given whose first non-zero component is positive. Where the two largest
+    values are alike, as below the centre of a circular load, round-off would choose among many directions: the one
+    nearest to travel is given, whose crack is transverse. LAPACK's symmetric solver: 1.7 µs per point, and
+    orthogonal directions however close the values, which the trigonometric form does not give.
     """
     values, vectors = np.linalg.eigh(matrices(tensor))
-    return np.moveaxis(values[..., ::-1], -1, 0), _oriented(vectors[..., :, 2])
+    directions = vectors[..., :, 2]
+    alike = values[..., 2] - values[..., 1] <= ALIKE * np.abs(values).max(axis=-1)
+    if alike.any():
+        directions[alike] = _nearest_to_travel(values[alike], vectors[alike])
+    return np.moveaxis(values[..., ::-1], -1, 0), _oriented(directions)
+
+
+def _nearest_to_travel(values: Array, vectors: Array) -> Array:
+    """Of the directions (n, 3) of a double largest value, the one nearest to x; to y in a plane across x.
+
+    values: (n, 3), smallest first. vectors: (n, 3, 3), in columns.
+    """
+    least = vectors[..., 0]
+    lengths = 1 - least[:, :2] ** 2
+    axis = np.where(lengths[:, 0] > ALIKE, 0, 1)
+    along = np.eye(3)[axis]
+    # Three alike: all directions are.
+    threefold = values[:, 2] - values[:, 0] <= ALIKE * np.abs(values).max(axis=-1)
+    part = np.einsum("ij,ij->i", along, least)
+    nearest = np.where(threefold[:, None], np.eye(3)[0], along - part[:, None] * least)
+    directions: Array = nearest / np.linalg.norm(nearest, axis=1)[:, None]
+    return directions
 
 
 def in_plane_principal(tensor: Array) -> tuple[Array, Array]:
     """Largest principal value in the plane (x, y) and its angle from x towards y.
 
     tensor: (6, ...). Returns the value (...) and the angle (...) in rad, in (-π/2, π/2]; 0 where all directions
-    are alike.
+    are alike: round-off would choose among them.
     """
-    difference, shear = 0.5 * (tensor[0] - tensor[1]), tensor[3]
+    middle, difference, shear = 0.5 * (tensor[0] + tensor[1]), 0.5 * (tensor[0] - tensor[1]), tensor[3]
+    radius = np.hypot(difference, shear)
     angle = 0.5 * np.arctan2(shear, difference)
     # -0.0 and underflow land on -π/2, the same line as π/2.
     angle = np.where(angle <= -np.pi / 2, np.pi / 2, angle)
-    return 0.5 * (tensor[0] + tensor[1]) + np.hypot(difference, shear), angle
+    return middle + radius, np.where(radius <= 0.5 * ALIKE * (np.abs(middle) + radius), 0.0, angle)
 
 
 def mean(tensor: Array) -> Array:

@@ -7,7 +7,8 @@ import xarray as xr
 
 from treadload.composing import Source
 from treadload.errors import InputError
-from treadload.kernels.arrays import BoolArray
+from treadload.kernels.arrays import Array, BoolArray
+from treadload.kernels.largest import ALIKE, index_of_largest
 from treadload.plots.kit.plan import edges, fields_of, plane
 
 # Share of the largest pressure below which a cell does not count as touched: transforms leave a little stress.
@@ -67,19 +68,26 @@ def places_under(contact: Source) -> dict[str, tuple[float, float]]:
     x_centre, y_centre = load_centre(data)
     line_load = pressure.sum(axis=0)
     loaded = np.nonzero(line_load >= _LOADED * line_load.max())[0]
-    column = int(loaded[np.argmin(np.abs(x[loaded] - x_centre))])
+    column = int(loaded[_nearest(x[loaded], x_centre)])
     here = float(x[column])
     line = pressure[:, column]
-    middle = int(np.argmin(np.abs(y - y_centre)))
+    middle = _nearest(y, y_centre)
     ribs = _runs(line > 0)
     beside = [rib for rib in ribs if middle not in rib] or ribs
-    rib = max(beside, key=lambda rows: float(line[rows].sum()))
-    outer = rib[-1] if abs(y[rib[-1]] - y_centre) >= abs(y[rib[0]] - y_centre) else rib[0]
+    rib = beside[index_of_largest(np.array([line[rows].sum() for rows in beside]), horizontal=1)[0]]
+    ends = np.array([rib[0], rib[-1]])
+    outer = int(ends[index_of_largest(np.abs(y[ends] - y_centre), horizontal=1)[0]])
     places = {"tire's centre": (here, float(y[middle]))}
     if middle not in rib:
         places["rib's middle"] = (here, float(y[rib[len(rib) // 2]]))
     places["rib's edge"] = (here, float(y[outer]))
     return places
+
+
+def _nearest(points: Array, place: float) -> int:
+    """Index of the point nearest to a place, of two at the same distance the larger: round-off would choose."""
+    distances = np.abs(points - place)
+    return int(np.nonzero(distances <= distances.min() + ALIKE * np.ptp(points))[0][-1])
 
 
 def _runs(mask: BoolArray) -> list[range]:
