@@ -235,7 +235,9 @@ def damage_of(
         # Seasons of one law are evaluated together, which costs less than one after the other.
         for law in {id(law): law for law in of_season}.values():
             seasons = [s for s, season_law in enumerate(of_season) if season_law is law]
-            turns = readings[k, c, seasons].swapaxes(0, 1)
+            # Most turns of most classes are nothing; valleys and peaks alternate up to the last that is read.
+            last = int(np.flatnonzero(readings[k, c].any(axis=(0, 2)))[-1:].sum()) + 1
+            turns = readings[k, c, seasons, :last].swapaxes(0, 1)
             harm = harm_of(law, turns.reshape(len(turns), -1)).reshape(len(seasons), -1)
             damage[k, c, seasons] = cycles[c, seasons, None] * harm
     return damage

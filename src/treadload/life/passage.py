@@ -319,8 +319,13 @@ def _read_both(
     whole, away = followed.by_depth, followed.away_by_depth
     on_core = followed.core[:, np.argsort(x_all, kind="stable")]
     on_lines = np.concatenate([_turns_of(on_core, turns, power), _turns_of(far_read, turns, power)], axis=1)
-    values = scipy.interpolate.make_interp_spline(lines.evaluated, on_lines[:, lines.ordered], k=1, axis=1)(lines.y)
-    result[:turns] = np.maximum(values, 0.0)
+    # Most turns of most classes are nothing.
+    filled = np.flatnonzero(on_lines.any(axis=1))
+    between = scipy.interpolate.make_interp_spline(
+        lines.evaluated, on_lines[np.ix_(filled, lines.ordered)], k=1, axis=1
+    )
+    result[:turns] = 0.0
+    result[filled] = np.maximum(between(lines.y), 0.0)
     most = np.concatenate([read.argmax(axis=1), far_read.argmax(axis=1)])
     count = len(read)
     deep = np.concatenate(

@@ -131,12 +131,15 @@ def solve_passages(
         ]
         turns = turns_of(wheels)
 
-        values = np.empty((len(classes), len(distinct), len(criteria), turns + BEHIND, len(y)), np.float32)
+        # Most turns of most classes are nothing: as the first axis in memory, what is not written takes none.
+        shape = (turns + BEHIND, len(criteria), len(classes), len(distinct), len(y))
+        values = np.zeros(shape, np.float32).transpose(2, 3, 1, 0, 4)
         changed = set(range(len(classes)))
         if earlier is not None:
             changed = set(pushed_classes(design.traffic))
             roads_at = [warm.where.index(number) for number in range(len(distinct))]
-            values[:] = earlier.evaluated[:, :, roads_at].transpose(1, 2, 0, 3, 4)
+            for row in set(range(len(classes))) - changed:
+                values[row] = earlier.evaluated[:, row, roads_at].swapaxes(0, 1)
 
         def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
@@ -148,7 +151,9 @@ def solve_passages(
             ]
             for task, read in stream_passings(passings, pool, count, threads):
                 row, number, numbers = tasks[task]
-                values[row, number, numbers] = read
+                for k, passage in zip(numbers, read, strict=True):
+                    filled = passage.any(axis=1)
+                    values[row, number, k, filled] = passage[filled]
 
         heaviest = int(np.argmax([row.wheel_load for row in classes]))
         lighter = [row for row in range(len(classes)) if row != heaviest and row in changed]
@@ -172,8 +177,12 @@ def solve_passages(
             for k, chosen in enumerate(kept):
                 if len(chosen) < len(distinct):
                     for number in lighter:
-                        rest = values[np.ix_([number], chosen)][:, :, k]
-                        values[number, :, k] = over_the_climate(warmths[number], chosen, rest, turns)[0]
+                        rest = values[number, chosen, k]
+                        filled = rest.any(axis=(0, 2))
+                        read = over_the_climate(
+                            warmths[number], chosen, rest[None, :, filled], int(filled[:turns].sum())
+                        )
+                        values[number, :, k, filled] = read[0].swapaxes(0, 1)
     # (criterion, axle_class, season, turn, y), with the crack behind the turns.
     each = values if warm.where == tuple(range(len(distinct))) else values[:, warm.where]
     everything = each.transpose(2, 0, 1, 3, 4)
