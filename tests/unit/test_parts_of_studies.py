@@ -250,6 +250,10 @@ def test_roads_between_are_read_between_and_cracks_from_the_nearest():
     # 2.2 lies nearest to 3, 4 as near to 3 as to 5.
     assert found[0, [0, 1, 2, 3], 1, 0].tolist() == [10, 20, 10, 40]
     assert found[0, 4, 1, 0] in (10, 40)
+    # Where nothing is read, only what is behind the turns is there, whatever the directions of warmth.
+    nothing = everything[:, kept, 1:]
+    for at in (warmth, np.stack([warmth, warmth**2], axis=1)):
+        np.testing.assert_array_equal(over_the_climate(at, kept, nothing, 0)[0, kept], nothing[0])
 
 
 def two(modulus, below=1e8):

@@ -118,12 +118,16 @@ def _harm(readings: Array, wander: Wander, spacing: float) -> Array:
 
 
 def over_the_climate(warmth: Array | None, kept: list[int], rest: Array, turns: int) -> Array:
-    """All roads (class, road, ...) from the kept ones: readings (turn) by splines, cracks from the nearest."""
+    """All roads (class, road, ...) from the kept ones: readings (turn) by splines, cracks from the nearest.
+
+    turns: how many of the third axis are readings; none where nothing is read.
+    """
     assert warmth is not None
     places = warmth.reshape(len(warmth), -1)
     nearest = np.linalg.norm(places[:, None] - places[kept], axis=-1).argmin(axis=1)
     whole = rest[:, nearest]
-    whole[:, :, :turns] = np.maximum(curves(warmth[kept], rest[:, :, :turns], 1)(warmth), 0.0)
+    if turns:
+        whole[:, :, :turns] = np.maximum(curves(warmth[kept], rest[:, :, :turns], 1)(warmth), 0.0)
     return whole
 
 
