@@ -139,14 +139,14 @@ def schema(
     ] = None,
 ) -> None:
     """JSON schema of a case, with what other packages bring: an editor then completes and explains its keys."""
-    import json
-
-    from treadload.case.schema import json_schema
+    from treadload.cli import listings
     from treadload.files import write_whole
+    from treadload.templates import check_kind
 
-    text = json.dumps(json_schema(kind), indent=2, ensure_ascii=False)
+    check_kind(kind)
+    text = listings.text_of(listings.schema(kind))
     if output is None:
-        shell.plain(f"{text}\n")
+        shell.plain(text)
         return
-    shell.written([write_whole(output, f"{text}\n")])
+    shell.written([write_whole(output, text)])
     shell.out.print(f"first line of the case, for editors that know Taplo: #:schema ./{output.name}", markup=False)

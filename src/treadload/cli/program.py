@@ -22,63 +22,69 @@ def catalogue(
     name: Annotated[str, typer.Argument(help="One of them, in full.", show_default=False)] = "",
 ) -> None:
     """Structures, mixes, viscoelastic materials, tires and belts that a case can name, with sources and caveats."""
-    from treadload import catalogue as catalogues
+    from treadload.cli import listings
     from treadload.errors import InputError, nearest
 
-    kinds = {kind: getattr(catalogues, kind) for kind in ("structures", "mixes", "materials", "tires", "belts")}
-    if kind and kind not in kinds:
-        raise InputError(f"no catalogue of {kind!r}; {nearest(kind, kinds)}")
+    if kind and kind not in listings.SHELVES:
+        raise InputError(f"no catalogue of {kind!r}; {nearest(kind, listings.SHELVES)}")
+    shelves = listings.catalogue()
     if name:
-        return shell.out.print(kinds[kind].about(name), markup=False)
+        return shell.out.print(_about(kind, name, shelves[kind]["about"]), markup=False)
     notes: dict[str, int] = {}
-    for shelf in kinds.values() if not kind else [kinds[kind]]:
-        table = Table(shell.names(), "what it is", "notes", title=shelf.use, title_justify="left")
-        for item_name, words, item in shelf.rows():
-            notes_of_item = [text for text in (item.source, *item.caveats) if text]
+    for shelf in shelves.values() if not kind else [shelves[kind]]:
+        table = Table(shell.names(), "what it is", "notes", title=shelf["use"], title_justify="left")
+        for item_name, words, notes_of_item in shelf["rows"]:
             marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in notes_of_item)
             table.add_row(item_name, Text(words), Text(marks))
         shell.out.print(table)
     if not kind:
-        shell.out.print(_kinds())
+        table = Table("key", "names", title="what a table of a case can be", title_justify="left")
+        for key, named in listings.tables():
+            table.add_row(key, Text(named))
+        shell.out.print(table)
     for text, number in notes.items():
         shell.out.print(f"[{number}] {text}", markup=False)
+
+
+def _about(kind: str, name: str, texts: dict[str, str]) -> str:
+    """What the catalogue has about a name. Raises InputError for a name that is not in it."""
+    if name in texts:
+        return texts[name]
+    from treadload import catalogue
+
+    text: str = getattr(catalogue, kind).about(name)
+    return text
 
 
 def criteria(
     name: Annotated[str, typer.Argument(help="One quantity or law, in full.", show_default=False)] = "",
 ) -> None:
     """What a criterion can read and by which laws: source, unit, what it asks for, what calibrates it."""
-    import treadload.case  # noqa: F401  its rooms register what they have
-    from treadload.damage import laws_listed, listed, quantities_listed
+    from treadload.cli import listings
 
+    quantities, laws = listings.criteria().values()
     if name:
-        return shell.out.print(str(listed(name)), markup=False)
+        return shell.out.print(quantities.get(name) or laws.get(name) or _listed(name), markup=False)
     parts = (
-        ('what a criterion can read: reads = "…"', quantities_listed()),
-        ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', laws_listed()),
+        ('what a criterion can read: reads = "…"', quantities.values()),
+        ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', laws.values()),
     )
     for title, rows in parts:
         shell.out.print(Text(title, style="bold underline"))
         for row in rows:
-            named, *lines = str(row).splitlines()
+            named, *lines = row.splitlines()
             shell.out.print(Text(named, style="bold"))
             for line in lines:  # no table: five columns of sentences are not read in a terminal of 80 characters
                 shell.out.print(Padding.indent(Text(line.strip()), 4), soft_wrap=False)
         shell.out.print()
 
 
-def _kinds() -> Table:
-    """What a table of a case can be, by its kind, and which package brings it where it is not treadload."""
-    import treadload.case  # its rooms register what they have
-    import treadload.tire.scan.cloud_file  # noqa: F401
-    from treadload.registry import ALL
+def _listed(name: str) -> str:
+    """A quantity or law that the list has under another name. Raises InputError for an unknown one."""
+    import treadload.case  # noqa: F401  its rooms register what they have
+    from treadload.damage import listed
 
-    table = Table("key", "names", title="what a table of a case can be", title_justify="left")
-    for registry in ALL:
-        named = ", ".join(f"{name} ({package})" if package else name for name, package in registry.packages().items())
-        if named:
-            table.add_row(f"{registry.noun}, {registry.key} = …" if registry.key else registry.noun, Text(named))
-    return table
+    return str(listed(name))
 
 
 def demo(

@@ -13,7 +13,7 @@ from treadload.damage.climate import Season
 from treadload.damage.cycles import harm_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
-from treadload.kernels.arrays import Array
+from treadload.kernels.arrays import Array, BoolArray
 from treadload.life.caveats import bond_caveats
 from treadload.life.climate import nodes, over_the_climate, warmth_of
 from treadload.life.contacts import Counter, Progress
@@ -138,8 +138,8 @@ def solve_passages(
         if earlier is not None:
             changed = set(pushed_classes(design.traffic))
             roads_at = [warm.where.index(number) for number in range(len(distinct))]
-            for row in set(range(len(classes))) - changed:
-                values[row] = earlier.evaluated[:, row, roads_at].swapaxes(0, 1)
+            for number in set(range(len(classes))) - changed:
+                values[number] = earlier.evaluated[:, number, roads_at].swapaxes(0, 1)
 
         def solve_all(rows: Sequence[int], by_road: Sequence[tuple[int, list[int]]]) -> None:
             """Into values, for classes, of roads those criteria; all by number."""
@@ -178,7 +178,7 @@ def solve_passages(
                 if len(chosen) < len(distinct):
                     for number in lighter:
                         rest = values[number, chosen, k]
-                        filled = rest.any(axis=(0, 2))
+                        filled: BoolArray = np.any(rest, axis=(0, 2))
                         read = over_the_climate(
                             warmths[number], chosen, rest[None, :, filled], int(filled[:turns].sum())
                         )
