@@ -62,7 +62,8 @@ def criteria(
     """What a criterion can read and by which laws: source, unit, what it asks for, what calibrates it."""
     from treadload.cli import listings
 
-    quantities, laws = listings.criteria().values()
+    texts = listings.criteria()
+    quantities, laws = texts["quantities"], texts["laws"]
     if name:
         return shell.out.print(quantities.get(name) or laws.get(name) or _listed(name), markup=False)
     parts = (
