@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from treadload.damage import FatigueLine, FrenchBituminous, FrenchSubgrade
 from treadload.damage.climate import Climate, Season
 from treadload.damage.criterion import Criterion
-from treadload.damage.miner import miner
+from treadload.damage.cycles import harm_of
+from treadload.damage.miner import damage_of, miner
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.errors import InputError
 from treadload.materials import Elastic
@@ -170,6 +171,25 @@ def test_every_axle_of_a_group_is_a_cycle_less_the_valley_between():
     assert damage(0.0) == pytest.approx(1 / passes(120e-6) + 1 / passes(100e-6), rel=1e-12)
     assert damage(100e-6) == pytest.approx(1 / passes(120e-6), rel=1e-12)
     assert damage(60e-6) == pytest.approx(1 / passes(120e-6) + 1 / passes(100e-6) - 1 / passes(60e-6), rel=1e-12)
+
+
+class OfAmplitude(FatigueLine):
+    def allowable_cycles(self, amplitude, mean):
+        return self.allowable_passes(amplitude)
+
+
+@pytest.mark.parametrize("filled", range(6))
+@pytest.mark.parametrize("law", [LINE, OfAmplitude(100e-6, -0.2)])
+def test_turns_in_which_nothing_is_read_do_nothing(law, filled):
+    """However many turns are read, also where the last of them is a valley."""
+    turns = np.zeros((1, 1, 2, 7, len(Y)))
+    turns[..., :filled, :] = np.random.default_rng(filled).uniform(50e-6, 200e-6, (1, 1, 2, filled, len(Y)))
+    climate = Climate((Season("a", 0.25, 5.0), Season("b", 0.75, 20.0)))
+    damage = damage_of(turns, [[[law, law]]], Traffic(classes(1.0), 1e6), climate)
+    for season, share in enumerate((0.25, 0.75)):
+        expected = 1e6 * share * harm_of(law, turns[0, 0, season])
+        # Round-off of a sum of seven terms.
+        np.testing.assert_allclose(damage[0, 0, season], expected, rtol=1e-12, atol=1e-12 * expected.max(initial=0.0))
 
 
 def test_damage_at_the_end_of_the_design_life():
