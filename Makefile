@@ -34,7 +34,7 @@ $(LIGHT): pyproject.toml constraints.txt | $(BIN)/python
 demo: $(LIGHT)
 	$(BIN)/treadload demo --output demo
 
-# Two processes test: threads of linear algebra in each would wait for one another, and take half as long again.
+# Two processes test: threads of linear algebra in each would wait for one another, and take twice as long.
 test test-slow test-browser: export OMP_NUM_THREADS := 1
 
 # Each process keeps to its files, whose fixtures are solved once.

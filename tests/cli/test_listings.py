@@ -25,9 +25,32 @@ def test_files_are_what_is_computed():
     assert ran.returncode == 0, ran.stderr.splitlines()[-1]
 
 
-@pytest.mark.parametrize("name", ["criteria", "catalogue", "tables"])
-def test_all_is_computed_where_another_package_brings_something(name, monkeypatch):
-    point = metadata.EntryPoint("stribeck", "my_laws:Stribeck", "treadload.friction")
-    monkeypatch.setattr(metadata, "entry_points", lambda: metadata.EntryPoints([point]))
-    monkeypatch.setattr(listings, f"_{name}", lambda: f"computed {name}")
-    assert getattr(listings, name)() == f"computed {name}"
+@pytest.fixture
+def another_package(monkeypatch):
+    """One with an entry point of a group that no registry reads and keeps."""
+    points = metadata.EntryPoints([metadata.EntryPoint("stribeck", "my_laws:Stribeck", "treadload.trials")])
+    monkeypatch.setattr(metadata, "entry_points", lambda **group: points.select(**group))
+
+
+@pytest.mark.parametrize(
+    ("name", "computes", "found"),
+    [
+        ("criteria", "_criteria", "computed"),
+        ("catalogue", "_shelf", ["computed"] * len(listings.SHELVES)),
+        ("tables", "_tables", "computed"),
+    ],
+)
+def test_all_is_computed_where_another_package_brings_something(name, computes, found, monkeypatch, another_package):
+    monkeypatch.setattr(listings, computes, lambda *_: "computed")
+    assert getattr(listings, name)() == found
+
+
+def test_of_several_packages_only_those_that_are_asked_for_are_loaded(monkeypatch, another_package):
+    asked = []
+    monkeypatch.setattr(listings, "_shelf", asked.append)
+    listings.catalogue(["mixes"])
+    assert asked == ["mixes"]
+    for name in ("_shelf", "_criteria"):
+        monkeypatch.setattr(listings, name, lambda *_: pytest.fail("loaded"))
+    assert "source" in listings.about("mixes", "BBSG3")
+    assert listings.criterion("limit").splitlines()[0] == "limit"

@@ -144,7 +144,7 @@ def schema(
     from treadload.templates import check_kind
 
     check_kind(kind)
-    text = listings.text_of(listings.schema(kind))
+    text = listings.schema(kind)
     if output is None:
         shell.plain(text)
         return

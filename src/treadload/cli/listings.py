@@ -3,23 +3,22 @@
     python -m treadload.cli.listings
 
 computes the files again, after a change of a law, a quantity, the catalogue or a key of a case;
-`tests/cli/test_listings.py` fails where one is out of date. Where another package brings something, all is computed.
+`tests/cli/test_listings.py` fails where one is out of date. Where another package brings something, what a command
+asks for is computed, and no more: a broken package stops no one who does not ask for it.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from functools import partial
+from collections.abc import Iterable
 from importlib import metadata
 from pathlib import Path
-from typing import TypedDict, TypeVar
+from typing import TypedDict
 
-Content = TypeVar("Content")
+from treadload.templates import KINDS
 
 FOLDER = Path(__file__).parent / "lists"
 SHELVES = ("structures", "mixes", "materials", "tires", "belts")
-KINDS = ("run", "life", "calibrate")
 
 
 class Shelf(TypedDict):
@@ -32,40 +31,72 @@ class Shelf(TypedDict):
 
 def criteria() -> dict[str, dict[str, str]]:
     """Texts of all "quantities" and "laws" of criteria, by name."""
-    return _listing("criteria", _criteria)
+    if _others_bring():
+        return _criteria()
+    texts: dict[str, dict[str, str]] = json.loads(_kept("criteria"))
+    return texts
 
 
-def catalogue() -> dict[str, Shelf]:
-    """The shelves of the catalogue, by `SHELVES`."""
-    return _listing("catalogue", _catalogue)
+def criterion(name: str) -> str:
+    """The text of one quantity or law. Raises InputError for a word that is neither."""
+    for texts in () if _others_bring() else criteria().values():
+        if name in texts:
+            return texts[name]
+    import treadload.case  # noqa: F401  its rooms register what they have
+    from treadload.damage import listed
+
+    return str(listed(name))
+
+
+def catalogue(names: Iterable[str] = SHELVES) -> list[Shelf]:
+    """Shelves of the catalogue, of `SHELVES`."""
+    if _others_bring():
+        return [_shelf(name) for name in names]
+    shelves: dict[str, Shelf] = json.loads(_kept("catalogue"))
+    return [shelves[name] for name in names]
+
+
+def about(shelf: str, name: str) -> str:
+    """The text about one thing on a shelf. Raises InputError for a name that is not there."""
+    texts = {} if _others_bring() else catalogue([shelf])[0]["about"]
+    if name in texts:
+        return texts[name]
+    from treadload import catalogue as catalogues
+
+    return str(getattr(catalogues, shelf).about(name))
 
 
 def tables() -> list[tuple[str, str]]:
     """Keys of tables of a case, and what they can be, with the package that brings it where it is not treadload."""
-    return _listing("tables", _tables)
+    if _others_bring():
+        return _tables()
+    rows: list[tuple[str, str]] = json.loads(_kept("tables"))
+    return rows
 
 
-def schema(kind: str) -> object:
-    """The JSON schema of a case of `KINDS`."""
-    return _listing(f"schema_{kind}", partial(_schema, kind))
+def schema(kind: str) -> str:
+    """The JSON schema of a case of `KINDS`, as text."""
+    return text_of(_schema(kind)) if _others_bring() else _kept(f"schema_{kind}")
 
 
 def computed() -> dict[str, object]:
     """What each file has, by its name."""
     schemas = {f"schema_{kind}": _schema(kind) for kind in KINDS}
-    return {"criteria": _criteria(), "catalogue": _catalogue(), "tables": _tables(), **schemas}
+    shelves = {name: _shelf(name) for name in SHELVES}
+    return {"criteria": _criteria(), "catalogue": shelves, "tables": _tables(), **schemas}
 
 
 def text_of(content: object) -> str:
-    """A listing as its file has it, and as a schema is printed."""
+    """What is listed, as its file has it."""
     return json.dumps(content, indent=2, ensure_ascii=False) + "\n"
 
 
-def _listing(name: str, compute: Callable[[], Content]) -> Content:
-    if any(group.startswith("treadload.") for group in metadata.entry_points().groups):
-        return compute()
-    content: Content = json.loads((FOLDER / f"{name}.json").read_text(encoding="utf-8"))
-    return content
+def _others_bring() -> bool:
+    return any(group.startswith("treadload.") for group in metadata.entry_points().groups)
+
+
+def _kept(name: str) -> str:
+    return (FOLDER / f"{name}.json").read_text(encoding="utf-8")
 
 
 def _criteria() -> dict[str, dict[str, str]]:
@@ -78,18 +109,15 @@ def _criteria() -> dict[str, dict[str, str]]:
     }
 
 
-def _catalogue() -> dict[str, Shelf]:
-    from treadload import catalogue
+def _shelf(name: str) -> Shelf:
+    from treadload import catalogue as catalogues
 
-    shelves: dict[str, Shelf] = {}
-    for kind in SHELVES:
-        shelf = getattr(catalogue, kind)
-        rows = [
-            (name, words, [text for text in (item.source, *item.caveats) if text])
-            for name, words, item in shelf.rows()
-        ]
-        shelves[kind] = {"use": shelf.use, "rows": rows, "about": {name: shelf.about(name) for name, _, _ in rows}}
-    return shelves
+    shelf = getattr(catalogues, name)
+    rows = [
+        (name, words, [text for text in (thing.source, *thing.caveats) if text])
+        for name, words, thing in shelf.rows()
+    ]
+    return {"use": shelf.use, "rows": rows, "about": {name: shelf.about(name) for name, _, _ in rows}}
 
 
 def _tables() -> list[tuple[str, str]]:

@@ -27,11 +27,10 @@ def catalogue(
 
     if kind and kind not in listings.SHELVES:
         raise InputError(f"no catalogue of {kind!r}; {nearest(kind, listings.SHELVES)}")
-    shelves = listings.catalogue()
     if name:
-        return shell.out.print(_about(kind, name, shelves[kind]["about"]), markup=False)
+        return shell.out.print(listings.about(kind, name), markup=False)
     notes: dict[str, int] = {}
-    for shelf in shelves.values() if not kind else [shelves[kind]]:
+    for shelf in listings.catalogue([kind] if kind else listings.SHELVES):
         table = Table(shell.names(), "what it is", "notes", title=shelf["use"], title_justify="left")
         for item_name, words, notes_of_item in shelf["rows"]:
             marks = " ".join(f"[{notes.setdefault(text, len(notes) + 1)}]" for text in notes_of_item)
@@ -46,46 +45,27 @@ def catalogue(
         shell.out.print(f"[{number}] {text}", markup=False)
 
 
-def _about(kind: str, name: str, texts: dict[str, str]) -> str:
-    """What the catalogue has about a name. Raises InputError for a name that is not in it."""
-    if name in texts:
-        return texts[name]
-    from treadload import catalogue
-
-    text: str = getattr(catalogue, kind).about(name)
-    return text
-
-
 def criteria(
     name: Annotated[str, typer.Argument(help="One quantity or law, in full.", show_default=False)] = "",
 ) -> None:
     """What a criterion can read and by which laws: source, unit, what it asks for, what calibrates it."""
     from treadload.cli import listings
 
-    texts = listings.criteria()
-    quantities, laws = texts["quantities"], texts["laws"]
     if name:
-        return shell.out.print(quantities.get(name) or laws.get(name) or _listed(name), markup=False)
+        return shell.out.print(listings.criterion(name), markup=False)
+    texts = listings.criteria()
     parts = (
-        ('what a criterion can read: reads = "…"', quantities.values()),
-        ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', laws.values()),
+        ('what a criterion can read: reads = "…"', texts["quantities"]),
+        ('by which laws: law = "…"; numbers in brackets may be left out, or are the layer\'s own', texts["laws"]),
     )
     for title, rows in parts:
         shell.out.print(Text(title, style="bold underline"))
-        for row in rows:
+        for row in rows.values():
             named, *lines = row.splitlines()
             shell.out.print(Text(named, style="bold"))
             for line in lines:  # no table: five columns of sentences are not read in a terminal of 80 characters
                 shell.out.print(Padding.indent(Text(line.strip()), 4), soft_wrap=False)
         shell.out.print()
-
-
-def _listed(name: str) -> str:
-    """A quantity or law that the list has under another name. Raises InputError for an unknown one."""
-    import treadload.case  # noqa: F401  its rooms register what they have
-    from treadload.damage import listed
-
-    return str(listed(name))
 
 
 def demo(

@@ -235,10 +235,7 @@ def damage_of(
         # Seasons of one law are evaluated together, which costs less than one after the other.
         for law in {id(law): law for law in of_season}.values():
             seasons = [s for s, season_law in enumerate(of_season) if season_law is law]
-            # Most turns of most classes are nothing. The last that is kept is a peak, of an even number.
-            filled = np.flatnonzero(readings[k, c].any(axis=(0, 2)))
-            count = 2 * ((int(filled.max(initial=0)) + 1) // 2) + 1
-            turns = readings[k, c, seasons, :count].swapaxes(0, 1)
+            turns = readings[k, c, seasons].swapaxes(0, 1)
             harm = harm_of(law, turns.reshape(len(turns), -1)).reshape(len(seasons), -1)
             damage[k, c, seasons] = cycles[c, seasons, None] * harm
     return damage

@@ -134,13 +134,11 @@ def _nearest_to_travel(values: Array, vectors: Array) -> Array:
     values: (n, 3), smallest first. vectors: (n, 3, 3), in columns.
     """
     least = vectors[..., 0]
-    lengths = 1 - least[:, :2] ** 2
-    axis = np.where(lengths[:, 0] > ALIKE, 0, 1)
-    along = np.eye(3)[axis]
+    along = np.eye(3)[np.where(1 - least[:, 0] ** 2 > ALIKE, 0, 1)]
     # Three alike: all directions are.
     threefold = values[:, 2] - values[:, 0] <= ALIKE * np.abs(values).max(axis=-1)
-    part = np.einsum("ij,ij->i", along, least)
-    nearest = np.where(threefold[:, None], np.eye(3)[0], along - part[:, None] * least)
+    across = along - (along * least).sum(axis=1, keepdims=True) * least
+    nearest = np.where(threefold[:, None], np.eye(3)[0], across)
     directions: Array = nearest / np.linalg.norm(nearest, axis=1)[:, None]
     return directions
 
