@@ -22,7 +22,7 @@ SHELVES = ("structures", "mixes", "materials", "tires", "belts")
 
 
 class Shelf(TypedDict):
-    """A part of the catalogue. rows: name, what it is, and notes. about: a text of each name."""
+    """A part of the catalogue. rows: name, what it is, notes. about: texts of names, but for those with a path."""
 
     use: str
     rows: list[tuple[str, str, list[str]]]
@@ -117,7 +117,10 @@ def _shelf(name: str) -> Shelf:
         (name, words, [text for text in (thing.source, *thing.caveats) if text])
         for name, words, thing in shelf.rows()
     ]
-    return {"use": shelf.use, "rows": rows, "about": {name: shelf.about(name) for name, _, _ in rows}}
+    texts = {name: shelf.about(name) for name, _, _ in rows}
+    # A file of the package has another place in each installation.
+    about_things = {name: text for name, text in texts.items() if str(FOLDER.parents[1]) not in text}
+    return {"use": shelf.use, "rows": rows, "about": about_things}
 
 
 def _tables() -> list[tuple[str, str]]:
