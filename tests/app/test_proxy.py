@@ -1,5 +1,7 @@
 """The page behind nginx with TLS and passwords, by the two blocks of docs/howto/behind_a_proxy.md."""
 
+import base64
+import hashlib
 import os
 import re
 import shutil
@@ -10,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from page_visits import PATIENCE, serving
+from page_visits import CHROMIUM, PATIENCE, serving
 
 pytestmark = pytest.mark.browser
 
@@ -43,16 +45,44 @@ def configuration(folder, port, inner):
 
 
 @pytest.fixture(scope="module")
-def address(tmp_path_factory):
-    """The page's address behind nginx."""
-    if not Path(NGINX).exists():
-        pytest.skip("no nginx here; .ci/run installs it")
-    folder, port, inner = tmp_path_factory.mktemp("proxy"), free_port(), free_port()
+def folder(tmp_path_factory):
+    """Where the proxy's files lie, with a certificate and its key."""
+    folder = tmp_path_factory.mktemp("proxy")
     certificate = ("-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2", "-subj", "/CN=127.0.0.1")
     subprocess.run(
         ["openssl", "req", *certificate, "-keyout", folder / "key.pem", "-out", folder / "cert.pem"],
         check=True, capture_output=True,
     )  # fmt: skip
+    return folder
+
+
+@pytest.fixture(scope="module")
+def chromium(folder):
+    """A browser that trusts the certificate.
+
+    One that ignores the error starts each request again, and gives some up with ERR_TOO_MANY_RETRIES when many begin
+    at once.
+    """
+    sync_api = pytest.importorskip("playwright.sync_api")
+    if not Path(CHROMIUM).exists():
+        pytest.skip("no Chromium here; .ci/run installs it")
+    key = subprocess.run(
+        ["openssl", "pkey", "-in", folder / "key.pem", "-pubout", "-outform", "der"], check=True, capture_output=True
+    ).stdout
+    trusted = base64.b64encode(hashlib.sha256(key).digest()).decode()
+    with sync_api.sync_playwright() as playwright:
+        arguments = ["--no-sandbox", f"--ignore-certificate-errors-spki-list={trusted}"]
+        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=arguments)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture(scope="module")
+def address(folder):
+    """The page's address behind nginx."""
+    if not Path(NGINX).exists():
+        pytest.skip("no nginx here; .ci/run installs it")
+    port, inner = free_port(), free_port()
     hashed = [
         subprocess.run(["openssl", "passwd", "-apr1", f"{name}s"], check=True, capture_output=True, text=True).stdout
         for name in ("anna", "bert")
