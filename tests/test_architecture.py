@@ -2,6 +2,7 @@
 
 import ast
 import functools
+import pickle
 import re
 import subprocess
 import sys
@@ -15,7 +16,9 @@ import treadload
 import treadload as tl
 from cases import COARSE_CASE
 from texts import code_of, nodes
+from treadload import deferred
 from treadload.registry import STEPS
+from treadload.templates import first_case
 
 ROOT = Path(treadload.__file__).parent
 
@@ -42,6 +45,7 @@ LEAVES = (
     "metrology",
     "identifiability",
     "_public",
+    "deferred",
     "_version",
 )
 # From left to right: a package imports those before it. Packages of one step do not know each other.
@@ -122,6 +126,8 @@ def imports(path):
         else:
             assert node.level == 0, f"{name_of(path)}:{node.lineno} imports relatively; write the whole name"
             for alias in node.names:
+                if node.module == "treadload.deferred":
+                    found.append(alias.name)
                 # `from treadload.kernels import fft` names a module in the list.
                 whole = f"{node.module}.{alias.name}"
                 found.append(whole if whole in PATHS else node.module)
@@ -358,6 +364,32 @@ def test_solving_a_contact_needs_no_figures_no_scan_and_no_units():
 
 def test_the_command_line_starts_without_numbers():
     assert not loaded_after("import treadload.cli.commands") & {"matplotlib", "scipy", "xarray", "trimesh"}
+
+
+def test_a_dry_run_loads_no_datasets_no_files_and_no_figures(tmp_path):
+    case = tmp_path / "case.toml"
+    case.write_text(first_case("run"), encoding="utf-8")
+    argv = ["treadload", "run", str(case), "--dry-run"]
+    dry_run = f"import contextlib, treadload.cli; sys.argv = {argv}\nwith contextlib.suppress(SystemExit): "
+    loaded = loaded_after(f"{dry_run}treadload.cli.main()\nassert 'treadload.steps' in sys.modules")
+    assert not loaded & {"xarray", "pandas", "h5py", "h5netcdf", "matplotlib", "pint", "trimesh"}
+
+
+def test_xarray_is_loaded_when_it_is_first_used():
+    wrong = [
+        f"{name_of(path)}:{node.lineno}: write `from treadload.deferred import xarray as xr`"
+        for path in containing("import xarray")
+        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        if isinstance(node, ast.Import) and node.names[0].name == "xarray"
+    ]
+    assert not wrong, "\n".join(wrong)
+
+
+def test_the_deferred_xarray_is_xarray():
+    assert deferred.xarray.Dataset is xr.Dataset
+    assert pickle.loads(pickle.dumps(deferred.xarray)) is deferred.xarray
+    with pytest.raises(AttributeError, match="Datasett"):
+        _ = deferred.xarray.Datasett
 
 
 def test_no_public_name_hides_a_module():

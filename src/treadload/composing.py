@@ -11,10 +11,9 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, runtime_checkable
 
-import xarray as xr
-
+from treadload.deferred import xarray as xr
 from treadload.describing import Described, as_html
 from treadload.errors import InputError
 from treadload.figure_registry import Plots
@@ -151,7 +150,7 @@ class BaseResult(Described):
         return as_html(self.title, [self], self.warnings, self.dataset, small_picture(self))
 
 
-Source = xr.Dataset | HasDataset
+Source: TypeAlias = "xr.Dataset | HasDataset"
 """What a verb reads fields from."""
 
 

@@ -20,16 +20,15 @@ import io
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import TypeVar
+from typing import TypeAlias, TypeVar
 
-import xarray as xr
-
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.registry import COMPARISONS, FIGURES, RESULTS, Entry, Registry
 from treadload.us_units import display_units
 
 Draw = TypeVar("Draw", bound=Callable[..., object])
-Words = str | Callable[[xr.Dataset], str]
+Words: TypeAlias = "str | Callable[[xr.Dataset], str]"
 
 
 @dataclass(frozen=True)

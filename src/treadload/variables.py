@@ -11,8 +11,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.units import LASTS, remaining_in_words, repetitions_in_words, stress_in_words, years_in_words
 
 _COORDINATES = {

@@ -9,11 +9,11 @@ from typing import Any, ClassVar
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload import variables
 from treadload.calibration.problem import Model, Problem, inflated
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.footprint import FootprintComparison, compare
 from treadload.footprint.measured import READINGS, Measured, Unknown

@@ -7,8 +7,7 @@ import math
 from collections.abc import Mapping
 from pathlib import Path
 
-import xarray as xr
-
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.files import read_tree
 

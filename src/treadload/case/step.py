@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import Any, ClassVar, Self, Unpack
 
-import xarray as xr
 from pydantic import ConfigDict, ValidationError
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
@@ -18,6 +17,7 @@ from treadload.case.description import Description
 from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult
 from treadload.damage.climate import Season
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.pavement import Pavement, methods_of
 from treadload.read import Table

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import xarray as xr
 
 from treadload.contact.rolling_state import Rolling
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.materials import Elastic
 from treadload.plausible import caveat, load_caveat

@@ -15,7 +15,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
@@ -30,6 +29,7 @@ from treadload.contact.rolling_state import Rolling, bound_on
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
 from treadload.contact.solvers.rolling import rigid_slip
+from treadload.deferred import xarray as xr
 from treadload.errors import ConvergenceError, InputError
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, IntArray

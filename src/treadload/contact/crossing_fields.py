@@ -8,13 +8,13 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.contact.bodies.influence import Influence
 from treadload.contact.relief import heights_on
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solvers.marching import State
 from treadload.contact.solvers.normal import NormalSolution
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array, IntArray
 from treadload.pavement.relief import Relief

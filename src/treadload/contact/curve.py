@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solve import solve_contact
 from treadload.contact.solvers.coupling import Progress
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.rows import Row, row

@@ -14,10 +14,10 @@ from typing import Any, ClassVar
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.solution import Contact
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row

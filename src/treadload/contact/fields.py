@@ -12,12 +12,12 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.contact.bodies.body import Body
 from treadload.contact.bodies.choose import Pair
 from treadload.contact.bodies.influence import Influence, operators
 from treadload.contact.solvers.tangential import TangentialSolution
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

@@ -11,7 +11,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.citations import DENTS
@@ -24,6 +23,7 @@ from treadload.contact.rib_sections import prepare_ribs
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solvers.normal import solve_normal
 from treadload.contact.yielding import Ground, Yielding
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

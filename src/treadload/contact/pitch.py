@@ -13,7 +13,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
@@ -27,6 +26,7 @@ from treadload.contact.pitch_window import Window
 from treadload.contact.rolling_state import Rolling
 from treadload.contact.solution import Contact
 from treadload.contact.solvers.marching import State
+from treadload.deferred import xarray as xr
 from treadload.errors import ConvergenceError, GeometryError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import xarray as xr
-
 from treadload.composing import BaseResult
 from treadload.contact.solution import Contact
+from treadload.deferred import xarray as xr
 from treadload.errors import positive
 from treadload.rows import Row, row
 from treadload.variables import dataset

@@ -18,7 +18,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, TypedDict, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import TEXTURE
 from treadload.composing import BaseResult, Holds
@@ -26,6 +25,7 @@ from treadload.contact.friction.laws import PressureDependent
 from treadload.contact.rough_theory import asperity_area, persson_area
 from treadload.contact.solution import Contact
 from treadload.contact.tread_layer import TreadRubber, wave_that_matters
+from treadload.deferred import xarray as xr
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.complementarity import projected_cg

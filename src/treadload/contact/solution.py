@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact.rolling_state import Rolling
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.largest import index_of_largest
 from treadload.materials import Orthotropic, Prony, TransverselyIsotropic

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact import cautions
@@ -29,6 +28,7 @@ from treadload.contact.solution import Contact
 from treadload.contact.solvers.marching import Stage, State, march
 from treadload.contact.solvers.rolling import rigid_slip
 from treadload.contact.solvers.tangential import Forces
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, within
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

@@ -14,7 +14,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact.fields import Scene
@@ -25,6 +24,7 @@ from treadload.contact.solution import Contact
 from treadload.contact.solvers.marching import State
 from treadload.contact.solvers.sliding import sliding_pole, sliding_torque
 from treadload.contact.transient import run, set_scene, stage_of, standing
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

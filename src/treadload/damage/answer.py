@@ -11,9 +11,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal
 
-import xarray as xr
-
 from treadload.damage.cracks import nothing_opens
+from treadload.deferred import xarray as xr
 from treadload.rows import Row
 from treadload.units import COUNTLESS, LASTS, repetitions_in_words, years_in_words
 

@@ -7,13 +7,13 @@ import math
 from typing import Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import Source, dataset_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.quantities import Extension
 from treadload.damage.quantity import Reading
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from typing import Literal, Self
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.cracks import crack_plane
 from treadload.damage.laws.bond import BondStrength, BondUtilisation, ShearFatigue
@@ -24,6 +23,7 @@ from treadload.damage.quantity import (
     ordered,
     tension,
 )
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.materials.kinds import AnyElastic, upright

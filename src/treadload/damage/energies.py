@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import COMMONLY_QUOTED
 from treadload.damage.quantity import Quantity, ordered
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array

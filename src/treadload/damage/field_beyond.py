@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 from dataclasses import field as dataclass_field
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.history import with_horizontal_stress
 from treadload.damage.quantity import STRESS
 from treadload.damage.reading import Field, read_means
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.response import Response, solve_response
 from treadload.response.basin import BEYOND, basin_tensors, coarsened

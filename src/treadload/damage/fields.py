@@ -6,12 +6,12 @@ import inspect
 from collections.abc import Callable, Sequence
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import Source
 from treadload.damage.cracks import gridded
 from treadload.damage.quantity import ANYWHERE, STRESS, Quantity, part
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.largest import index_of_largest

@@ -7,13 +7,13 @@ from typing import Literal, overload
 
 import numpy as np
 import scipy
-import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
 from treadload.composing import Source
 from treadload.damage.cracks import gridded
 from treadload.damage.quantity import STRESS, part
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array

@@ -10,13 +10,13 @@ import itertools
 import json
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import Source, dataset_of
 from treadload.damage.cracks import gridded
 from treadload.damage.energies import DistortionEnergy
 from treadload.damage.quantities import VerticalCompression
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials import PassesPowerLaw

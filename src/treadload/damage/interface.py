@@ -10,7 +10,6 @@ from itertools import pairwise
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds, Source, dataset_of
@@ -19,6 +18,7 @@ from treadload.damage.cracks import gridded
 from treadload.damage.criterion import interface_number
 from treadload.damage.laws.bond import BondStrength, ShearFatigue
 from treadload.damage.laws.validity import warnings_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.depths import same_depth

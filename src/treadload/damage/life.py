@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult, Columns, Holds
@@ -25,6 +24,7 @@ from treadload.damage.words import (
     heading_of,
     life_rows,
 )
+from treadload.deferred import xarray as xr
 from treadload.rows import Row, row
 
 

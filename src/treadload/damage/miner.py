@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.climate import MONTHS, Climate
@@ -22,6 +21,7 @@ from treadload.damage.words import (
     cautions,
     criteria_attributes,
 )
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, Reals
 from treadload.kernels.largest import index_of_largest

@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.contact import PitchPassage
 from treadload.damage.uniform import READINGS
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import Self
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.quantity import (
     BOTTOM,
@@ -22,6 +21,7 @@ from treadload.damage.quantity import (
     check_reading,
     part,
 )
+from treadload.deferred import xarray as xr
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.registry import QUANTITIES

@@ -26,9 +26,9 @@ from types import MappingProxyType
 from typing import Literal, Self
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array, BoolArray

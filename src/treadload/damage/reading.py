@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source
 from treadload.damage.cracks import crack_plane, gridded
 from treadload.damage.history import with_horizontal_stress
 from treadload.damage.laws.fatigue import PowerLaw
 from treadload.damage.quantity import STRAIN, STRESS, Quantity, cut, part
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source
 from treadload.damage.cracks import gridded
 from treadload.damage.quantity import STRAIN, STRESS, Reading, in_tension
+from treadload.deferred import xarray as xr
 from treadload.kernels import tensors
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest

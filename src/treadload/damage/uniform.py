@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
@@ -16,6 +15,7 @@ from treadload.composing import BaseResult, Holds
 from treadload.contact import Contact
 from treadload.damage.quantities import Extension, HorizontalTension, VerticalCompression, VerticalShear
 from treadload.damage.quantity import Quantity
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.materials import AtStress

@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Columns, Holds, Source
@@ -32,6 +31,7 @@ from treadload.damage.rib_sides import filled_ribs
 from treadload.damage.two_grids import COARSER, cell_of, coarser, shifted_loads
 from treadload.damage.unevaluated import bottoms_without_depth, bright_spot
 from treadload.damage.worst_point import closer, unsearched
+from treadload.deferred import xarray as xr
 from treadload.response import MATERIAL_LENGTH
 from treadload.response.loads import Load, gather
 from treadload.rows import Place, Row, row

@@ -9,7 +9,6 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.climate import MONTHS, Climate
 from treadload.damage.cracks import HORIZONTAL, NONE, ORIENTATIONS, opens_down
@@ -19,6 +18,7 @@ from treadload.damage.laws.conditions import conditions_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.laws.validity import range_warnings
 from treadload.damage.traffic import Traffic
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row

@@ -8,11 +8,11 @@ from dataclasses import replace
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.quantity import Quantity
 from treadload.damage.reading import Field, read_means
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.response.means import Means
 

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, HasDataset, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.footprint.footprint import Footprint, checked_pin
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares, turn

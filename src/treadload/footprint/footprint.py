@@ -10,9 +10,9 @@ from dataclasses import dataclass, field, replace
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.footprint.interpolation import FootprintSet, opened_set
 from treadload.footprint.measures import Measures, check_ribs, find_ribs, measure, shares

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.footprint.footprint import Footprint, edges_of
 from treadload.footprint.measures import turn
 from treadload.footprint.thirds import RibForces, largest, on_cells, on_pins, on_sensels, rib_faces

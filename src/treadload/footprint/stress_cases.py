@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from treadload._version import __version__
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, error_line
 from treadload.files import parse_toml
 from treadload.grid import Grid

@@ -8,12 +8,12 @@ from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.contact import Contact, Rolling, solve_contact, solve_transient
 from treadload.contact.solvers.coupling import Progress
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.footprint.measures import find_ribs, measure, shares
 from treadload.kernels.arrays import Array

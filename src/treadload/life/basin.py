@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.life.wheels import Wheels
 from treadload.response.basin import BEYOND

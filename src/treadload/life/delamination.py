@@ -9,7 +9,6 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 from numpy.typing import ArrayLike
 
 from treadload import variables
@@ -18,6 +17,7 @@ from treadload.damage.criterion import interface_number
 from treadload.damage.interface import delaminate, interface_fields, interface_in_words
 from treadload.damage.life import Life
 from treadload.damage.miner import passes_in_two_phases
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress

@@ -9,7 +9,6 @@ from typing import Any, ClassVar
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -17,6 +16,7 @@ from treadload.damage.cycles import harm_of
 from treadload.damage.laws.equivalence import GROUP_FACTORS, StandardAxle
 from treadload.damage.life import Life
 from treadload.damage.traffic import AxleClass
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Counter

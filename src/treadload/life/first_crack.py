@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-import xarray as xr
 
 from treadload.contact.maneuver import STRAIGHT, Maneuver
 from treadload.damage.criterion import Criterion
@@ -18,6 +17,7 @@ from treadload.damage.miner import wander_of
 from treadload.damage.quantity import part, tension
 from treadload.damage.traffic import AxleClass, Wander
 from treadload.damage.words import CAUSES, DIRECTIONS
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import Any, Self, TypeAlias
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.criterion import Criterion
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.life.basin import Basin
 from treadload.life.lines import Lines, straight
@@ -18,7 +18,7 @@ from treadload.life.wheels import Wheels
 
 # Of a law that states no exponent, and any temperature: exponents hardly depend on it.
 _USUAL, _ANY_TEMPERATURE = -0.2, 15.0
-Evaluated = Callable[[xr.Dataset], tuple[Array, Array | None]]
+Evaluated: TypeAlias = "Callable[[xr.Dataset], tuple[Array, Array | None]]"
 """A quantity of a response, and the tension without which it counts as nothing, see `Criterion.read_uncut`."""
 
 

@@ -9,7 +9,6 @@ from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.climate import MONTHS
@@ -20,6 +19,7 @@ from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import MODES, Growth
 from treadload.damage.life import Life
 from treadload.damage.words import DIRECTIONS
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
 from treadload.life.contacts import Progress

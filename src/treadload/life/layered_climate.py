@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.climate import MONTHS, Climate, Season
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.life.seasons import in_season, warmed
 from treadload.life.stiffer import names_of

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload.damage.criterion import Criterion
 from treadload.damage.cycles import as_turns, rainflow, turning_points
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array, IntArray
 from treadload.life.basin import Basin
 from treadload.life.contacts import Counter

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.climate import Season
 from treadload.damage.cycles import harm_of
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.miner import wander_of
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.life.caveats import bond_caveats
 from treadload.life.climate import nodes, over_the_climate, warmth_of

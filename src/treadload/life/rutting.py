@@ -9,13 +9,13 @@ from typing import Any
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.climate import Climate, Season
 from treadload.damage.indices import depth_factor
 from treadload.damage.rutting import CAVEAT, COLDEST, SOIL, UNBOUND, WARMEST, Rutting
 from treadload.damage.traffic import Traffic
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.life.climate import curves, first_nodes, warmth_of
 from treadload.life.design import Design

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
@@ -19,6 +18,7 @@ from treadload.damage.miner import damage_of, wander_of
 from treadload.damage.thermal import years_until
 from treadload.damage.traffic import AxleClass, Traffic, Wander
 from treadload.damage.words import STEEPEST
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress

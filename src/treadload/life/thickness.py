@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.life import Life
 from treadload.damage.scatter import check_risks
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest, positive
 from treadload.life.contacts import Progress
 from treadload.life.design import Design

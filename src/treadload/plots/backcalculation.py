@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array, IntArray

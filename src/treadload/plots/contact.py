@@ -6,7 +6,6 @@ import textwrap
 from collections.abc import Iterator
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
@@ -15,6 +14,7 @@ from matplotlib.path import Path
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.figure import figure_and_axes, new_figure

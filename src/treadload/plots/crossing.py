@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure

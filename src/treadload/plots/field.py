@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.figure_registry import figure
 from treadload.life.field.fit import DROP
 from treadload.plots.kit.figure import figure_and_axes

@@ -6,12 +6,12 @@ import math
 from collections.abc import Iterator, Mapping
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array, BoolArray

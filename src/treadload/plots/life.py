@@ -7,13 +7,13 @@ import textwrap
 from typing import cast
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.typing import ColorType
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import figure
 from treadload.plots.kit.figure import figure_and_axes, new_figure

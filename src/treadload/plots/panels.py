@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from treadload.composing import Source
 from treadload.damage.cracks import OBLIQUE_TOLERANCE
+from treadload.deferred import xarray as xr
 from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array
 from treadload.plots.kit.figure import new_figure

@@ -6,13 +6,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, TypedDict, Unpack
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import Drawing, figure
 from treadload.kernels.arrays import Array

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.projections.polar import PolarAxes
 
 from treadload.composing import Source
 from treadload.damage.cracks import HORIZONTAL, OBLIQUE_TOLERANCE, ORIENTATIONS, crack_rose, orientation
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import figure
 from treadload.kernels.arrays import Array

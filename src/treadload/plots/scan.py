@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from treadload.deferred import xarray as xr
 from treadload.plots.kit.figure import new_figure
 from treadload.plots.kit.plan import MM, limits
 from treadload.plots.kit.style import (

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.contact import draw_stick_slip, shear_in_numbers

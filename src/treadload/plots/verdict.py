@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
 from matplotlib.figure import Figure
@@ -16,6 +15,7 @@ from treadload.composing import Source
 from treadload.damage.cracks import HORIZONTAL, ORIENTATIONS
 from treadload.damage.laws.fatigue import FatigueLine
 from treadload.damage.verdict import under
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import comparison, figure
 from treadload.kernels.largest import index_of_largest

@@ -5,13 +5,13 @@ from __future__ import annotations
 import textwrap
 
 import numpy as np
-import xarray as xr
 from matplotlib.colors import LogNorm, Normalize
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from treadload.composing import Source
 from treadload.damage.indices import NO_WORK
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.figure_registry import figure
 from treadload.plots.kit.figure import new_figure

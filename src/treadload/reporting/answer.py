@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import xarray as xr
-
 from treadload.damage.answer import Answer, fatigue_answer, life_answer
+from treadload.deferred import xarray as xr
 from treadload.plots.sweeps.reading import View, main_readings
 from treadload.reporting.figures import Section
 from treadload.reporting.life import LifeReport

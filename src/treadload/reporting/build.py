@@ -11,10 +11,10 @@ from pathlib import Path
 from typing import Any, cast
 
 import jinja2
-import xarray as xr
 
 from treadload._version import __version__
 from treadload.composing import result_classes
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.files import HTML, check_suffix, check_writable, write_whole
 from treadload.reporting.answer import answer_of, with_picture

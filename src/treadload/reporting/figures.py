@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 
-import xarray as xr
-
+from treadload.deferred import xarray as xr
 from treadload.describing import class_in_words
 from treadload.errors import InputError
 from treadload.figure_registry import comparisons

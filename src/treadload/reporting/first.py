@@ -8,11 +8,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.cracks import OBLIQUE_TOLERANCE, ORIENTATIONS, crack_plane, in_a_cell, opens_down, orientation
 from treadload.damage.fields import known_quantities
 from treadload.damage.quantity import Quantity, cut, in_tension
+from treadload.deferred import xarray as xr
 from treadload.kernels.largest import index_of_largest
 from treadload.plots.first import crack_or_not, failing_order
 from treadload.plots.response import NAMES

@@ -8,9 +8,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.indices import NO_WORK
+from treadload.deferred import xarray as xr
 from treadload.plots.kit.style import measure, power_of_ten, signed, thousands
 from treadload.plots.life import life_change
 from treadload.reporting.first import FirstPage, first_of_life

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.reporting.tables import NamedTable
 from treadload.sweeps.gathered import FAILED
 from treadload.sweeps.network.solution import ranking

@@ -13,12 +13,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
-import xarray as xr
 from matplotlib.figure import Figure
 
 # Pillow comes with matplotlib.
 from PIL import Image, features
 
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, one_line
 from treadload.figure_registry import Drawing, RegisteredFigure, classes_of, figures_of
 from treadload.plots import raster

@@ -10,10 +10,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any, TypedDict, cast
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Columns, class_of_group, result_classes
 from treadload.damage.verdict import rows_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.plots.response import assessed_depth, assessed_plane

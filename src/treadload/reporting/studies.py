@@ -6,8 +6,8 @@ import json
 from collections.abc import Iterator
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.plots.kit.shown import Shown, numbers, shown
 from treadload.plots.kit.style import power_of_ten, thousands
 from treadload.plots.sweeps.reading import FAILED, UNSOLVED, View, main_readings

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import BASIN

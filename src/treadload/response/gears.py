@@ -12,8 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import xarray as xr
-
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.response.loads import GridLoad, Load, PlacedLoad, gather
 

@@ -10,13 +10,13 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, Unpack
+from typing import Any, Literal, TypeAlias, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import HasDataset, Source, dataset_of
 from treadload.contact.fields import RIB_SIDES
+from treadload.deferred import xarray as xr
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.grid import Grid
@@ -329,14 +329,14 @@ class UniformRectangle:
         return GridLoad(grid, self.pressure * ones, self.traction_x * ones, self.traction_y * ones)
 
 
-Load = GridLoad | UniformDisc | UniformRectangle | Source
+Load: TypeAlias = "GridLoad | UniformDisc | UniformRectangle | Source"
 PlacedLoad = GridLoad | UniformDisc | UniformRectangle
 SurfaceLoad = GridLoad | UniformDisc
 
 
 def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     """Loads to superpose, from one or several contacts, datasets, GridLoads, discs and rectangles."""
-    single = isinstance(loads, (GridLoad, UniformDisc, UniformRectangle, xr.Dataset, HasDataset))
+    single = isinstance(loads, PlacedLoad) or isinstance(loads, xr.Dataset | HasDataset)
     several: Any = [loads] if single else loads
     if not isinstance(several, Sequence) or isinstance(several, str) or not len(several):
         raise InputError(
@@ -362,7 +362,7 @@ def _check_move(x: float, y: float) -> None:
 
 
 def _load(item: Load) -> PlacedLoad:
-    if isinstance(item, (GridLoad, UniformDisc, UniformRectangle)):
+    if isinstance(item, PlacedLoad):
         return item
     if isinstance(item, xr.Dataset | HasDataset):
         return GridLoad.from_dataset(item)

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Literal, TypedDict, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, meant
 from treadload.files import read_tree
 from treadload.grid import Grid

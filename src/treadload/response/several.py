@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.errors import ConvergenceError, InputError
 from treadload.kernels.arrays import Array
 from treadload.kernels.layers.synthesis import READING

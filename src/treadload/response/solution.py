@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Columns, Holds
 from treadload.contact import Contact
+from treadload.deferred import xarray as xr
 from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement, methods_of
 from treadload.response.fields import COMPONENTS, angle_in_words, direction_in_words, kind_of_points, layer_in_words

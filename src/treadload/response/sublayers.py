@@ -7,9 +7,9 @@ import math
 from collections.abc import Iterator
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.materials import AtStress
 from treadload.pavement import Pavement
 from treadload.rows import Row, row

@@ -7,11 +7,10 @@ import unicodedata
 from collections.abc import Iterable
 from typing import Any
 
-import xarray as xr
-
 from treadload._version import __version__
 from treadload.case import Case
 from treadload.citations import REFERENCES, references
+from treadload.deferred import xarray as xr
 from treadload.results.schema import read_json
 
 # "Love, A. E. H. (1929). The stress produced ... Phil. Trans. R. Soc. A 228, 377-420."

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 
 from treadload._version import __version__
 from treadload.composing import BaseResult
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.rows import Row, row
 from treadload.tire import Tire

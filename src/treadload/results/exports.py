@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, WriteError, how_to_install
 from treadload.files import EXCEL, NETCDF, PARQUET, TABLE, check_suffix, write_all, write_whole
 from treadload.results.files import save_results

@@ -6,12 +6,10 @@ import os
 from pathlib import Path
 from typing import Any
 
-import h5netcdf
 import numpy as np
-import xarray as xr
-from xarray.backends import H5NetCDFStore
 
 from treadload._version import __version__
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.files import NETCDF, check_suffix, read_tree, remembering, write_whole
 from treadload.results.opened import Results
@@ -45,6 +43,10 @@ def _image(data: xr.DataTree | xr.Dataset) -> bytes:
     On a full disk HDF5 ends the process while it closes its file, and so it does in a stream of Python's where memory
     ends; in memory of its own it raises MemoryError in an orderly way.
     """
+    # Reading the case of a command needs neither.
+    import h5netcdf
+    from xarray.backends import H5NetCDFStore
+
     tree = data if isinstance(data, xr.DataTree) else xr.DataTree(data)
     try:
         with remembering("memory", "w", driver="core", backing_store=False, track_order=True) as image:

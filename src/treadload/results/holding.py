@@ -10,9 +10,9 @@ from types import MappingProxyType
 from typing import Any, Literal, Union, get_args, get_origin
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, one_line
 from treadload.results.schema import check_fields, check_number, each, read_json, short
 from treadload.variables import in_order

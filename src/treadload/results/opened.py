@@ -8,10 +8,9 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import Any
 
-import xarray as xr
-
 from treadload.case import Case
 from treadload.composing import BaseResult
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.pavement import Pavement
 from treadload.results.dataset import Fields

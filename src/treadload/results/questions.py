@@ -19,10 +19,10 @@ from types import MappingProxyType
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.case import Case
 from treadload.composing import BaseResult, result_class
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.registry import OURS, load_point, package_with
 from treadload.results.dataset import Fields

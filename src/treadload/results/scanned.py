@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.grid import Grid
 from treadload.results.dataset import height_map

@@ -13,9 +13,9 @@ from collections.abc import Set as AbstractSet
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds, class_of_group, result_classes
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, one_line
 from treadload.files import parse_toml
 from treadload.kernels.arrays import Array

@@ -7,9 +7,8 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-import xarray as xr
-
 from treadload.composing import BaseResult, small_picture
+from treadload.deferred import xarray as xr
 from treadload.describing import Described, as_html
 from treadload.rows import Row
 

@@ -7,9 +7,9 @@ import os
 from pathlib import Path
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.files import check_suffix, write_whole
 from treadload.kernels.arrays import Array

@@ -15,14 +15,13 @@ from dataclasses import asdict
 from importlib import metadata
 from typing import Any
 
-import xarray as xr
-
 from treadload._version import __version__
 from treadload.case import Case
 from treadload.citations import references
 from treadload.composing import BaseResult
 from treadload.contact import Contact
 from treadload.damage import Season
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.footprint import Footprint
 from treadload.pavement import LayerRow, Pavement, layer_rows, methods_of, road_in_words

@@ -17,9 +17,9 @@ from typing import Any
 from xml.sax.saxutils import quoteattr
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.files import check_suffix, write_whole
 from treadload.kernels.arrays import Array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
 
@@ -60,7 +60,7 @@ class DualWheels:
         return right_wheel, right_wheel.mirrored()
 
 
-Wheels = DualWheels | Load | Sequence[Load]
+Wheels: TypeAlias = "DualWheels | Load | Sequence[Load]"
 """Dual wheels, or whatever loads a response takes: contacts, grids, rectangles, discs."""
 
 

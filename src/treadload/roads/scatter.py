@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.scatter import Scatter
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 
 # Deviation of ln E up to which a modulus scatters as one number: a coefficient of variation of 1. Correlations closer

@@ -8,11 +8,11 @@ from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.composing import BaseResult, Holds
 from treadload.damage.scatter import Scatter
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.identifiability import LEVEL, quantile
 from treadload.kernels.arrays import Array, IntArray

@@ -6,8 +6,8 @@ import math
 import re
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.roads.unknowns import DEPTH
 from treadload.rows import Row, row

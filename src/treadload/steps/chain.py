@@ -8,12 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.case import Case
 from treadload.composing import BaseResult
 from treadload.damage import Life, Verdict
 from treadload.damage.answer import Answer
+from treadload.deferred import xarray as xr
 from treadload.describing import first_line
 from treadload.pavement import Pavement
 from treadload.response.input_caveats import question_caveats, road_caveats

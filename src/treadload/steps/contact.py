@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-import xarray as xr
-
 from treadload.case.choices import TIRE_MATERIAL
 from treadload.case.description import Description
 from treadload.case.step import Source, numbers_of
 from treadload.contact import Contact, cautions
 from treadload.contact.bodies.choose import surface_of
+from treadload.deferred import xarray as xr
 from treadload.steps.outline import Outline
 from treadload.steps.scene import Scene
 from treadload.steps.script import Script

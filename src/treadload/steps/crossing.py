@@ -6,7 +6,6 @@ import itertools
 import math
 from typing import Annotated, ClassVar, Literal
 
-import xarray as xr
 from pydantic import model_validator
 
 from treadload.case.choices import TIRE_MATERIAL
@@ -15,6 +14,7 @@ from treadload.case.step import Step, numbers_of
 from treadload.contact import Contact, Crossing, Rolling, cross_obstacle
 from treadload.contact.crossing import MOST_POSITIONS
 from treadload.contact.crossing_fields import STRIDE
+from treadload.deferred import xarray as xr
 from treadload.errors import positive
 from treadload.materials import Prony
 from treadload.pavement import Relief, RoadJoint, RoadPlate, RoadStep

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any, ClassVar, Literal
 
-import xarray as xr
 from pydantic import model_validator
 
 from treadload.case.description import Description
 from treadload.case.step import Step, numbers_of
 from treadload.damage import FatigueLine, Verdict
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.layers.depths import same_depth
 from treadload.read import As, TargetTable

@@ -6,12 +6,12 @@ from dataclasses import replace
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.case.description import Description
 from treadload.case.step import Results, Source, at_key, numbers_of
 from treadload.damage import Life
 from treadload.damage.climate import Climate, Season
+from treadload.deferred import xarray as xr
 from treadload.life.ageing import longer_by_ageing
 from treadload.life.caveats import traffic_caveats
 from treadload.life.design import DEFAULT_TOLERANCE

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Annotated, ClassVar
 
-import xarray as xr
 from pydantic import model_validator
 
 from treadload.case.description import Description
@@ -14,6 +13,7 @@ from treadload.composing import BaseResult
 from treadload.contact import Contact, PitchPassage, solve_pitch
 from treadload.contact.pitch import POSITIONS, check_positions
 from treadload.damage.pitch import respond_to_pitch
+from treadload.deferred import xarray as xr
 from treadload.errors import positive
 from treadload.materials import Prony
 from treadload.read import As, TargetTable

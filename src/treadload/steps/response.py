@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import ClassVar, Literal
 
-import xarray as xr
 from pydantic import model_validator
 
 from treadload.case.description import Description
 from treadload.case.step import Step
 from treadload.damage.uniform import READINGS
+from treadload.deferred import xarray as xr
 from treadload.errors import positive
 from treadload.read import Table
 from treadload.response import GridLoad, Response, place_load

@@ -7,10 +7,10 @@ from dataclasses import replace
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.case.step import Results, Step
 from treadload.damage import Verdict
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement

@@ -15,8 +15,8 @@ from types import ModuleType
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, how_to_install
 from treadload.files import write_whole
 from treadload.sweeps.design import Design

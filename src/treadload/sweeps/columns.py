@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from typing import TypeGuard
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 
 # Text that stands for a table or a list, at most so long.

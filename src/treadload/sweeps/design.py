@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Any, TypedDict
 
 import numpy as np
-import xarray as xr
 
 from treadload.case import Case
 from treadload.case.keys import find_key, keys_of, value_at, with_values
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.sweeps.columns import is_finite, is_number, labels_of, listed_values, objects, objects_like
 from treadload.variables import VARIABLES

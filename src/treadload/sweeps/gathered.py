@@ -6,9 +6,9 @@ import json
 from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.sweeps.design import Design
 from treadload.sweeps.record import Record, Values

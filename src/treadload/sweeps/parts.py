@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 
 from treadload.case import Case
 from treadload.case.step import Source, step_classes
 from treadload.contact import Contact
+from treadload.deferred import xarray as xr
 from treadload.life.contacts import Contacts
 from treadload.steps.loaded import Touch, contact_of
 from treadload.steps.scene import Options, Scene

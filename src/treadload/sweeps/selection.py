@@ -8,10 +8,10 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.case import Case
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.sweeps.parts import Parts, parts_of
 from treadload.sweeps.record import Values

@@ -22,9 +22,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any, cast
 
-import xarray as xr
-
 from treadload.case import Case
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, WriteError
 from treadload.files import write_whole
 from treadload.sweeps.arrays import damaged_fields, keep_fields, restore_fields, write_arrays, write_fields, zarr

@@ -12,10 +12,10 @@ from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.case import Case
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, WorkersLost, positive
 from treadload.rows import Row, row
 from treadload.sweeps.cluster import SchedulerLost, cluster

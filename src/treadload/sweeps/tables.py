@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.sweeps.gathered import FAILED, SOLVED, UNSOLVED
 from treadload.sweeps.sweep import Sweep
 

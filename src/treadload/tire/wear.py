@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row
 

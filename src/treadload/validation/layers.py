@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array
 from treadload.kernels.complementarity.parted import FaceStiffness, solve_parted

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.growth.options import CrackGrowth
 from treadload.damage.growth.solution import Growth
+from treadload.deferred import xarray as xr
 
 
 def side_by_side(by_direction: Mapping[str, Growth], growth: CrackGrowth) -> Growth:

@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.damage.growth.options import CrackGrowth
+from treadload.deferred import xarray as xr
 from treadload.rows import Row, row
 from treadload.units import years_in_words
 

@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import ClassVar, overload
 
 import numpy as np
-import xarray as xr
 
 from treadload.damage.quantities import TENSION
 from treadload.damage.quantity import Quantity
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, positive
 from treadload.kernels.arrays import Array
 from treadload.units import PSI

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.damage.field_shift import UNSUPPORTED, FieldShift
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.life.field.fit import DROP
 from treadload.life.field.likelihood import KINDS, WHY_LATE, Parameters, Sections, log_likelihood

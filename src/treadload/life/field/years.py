@@ -8,11 +8,11 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.damage.field_shift import UNSUPPORTED, FieldShift
 from treadload.damage.life import Life
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.life.field.standard_axles import standard_axles
 from treadload.pavement import Pavement

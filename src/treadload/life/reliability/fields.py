@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 import scipy
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter
 from treadload.damage.traffic import Traffic
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.life.reliability.inputs import FATIGUE, INTERPOLATION, TRAFFIC, Input
 from treadload.life.reliability.propagation import MonteCarlo, Quadratic, drawn, first_order

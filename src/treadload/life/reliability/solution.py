@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
 from treadload.damage.scatter import Scatter
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.rows import Row, row
 from treadload.variables import display_of

@@ -7,13 +7,13 @@ import time
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.damage.criterion import Criterion
 from treadload.damage.laws.fatigue import FatigueLaw
 from treadload.damage.life import Life
 from treadload.damage.scatter import Scatter, check_risks
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array
 from treadload.life.contacts import Progress

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.rows import Row, row
 from treadload.units import LASTS, years_in_words
 from treadload.variables import Display, display_of

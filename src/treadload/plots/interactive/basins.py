@@ -6,9 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.plots.interactive.drawing import figure

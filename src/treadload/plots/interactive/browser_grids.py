@@ -7,9 +7,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import NotRequired, TypedDict
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.plots.interactive.section_rows import SectionRows
 from treadload.plots.interactive.us_figure import line_in_display_units, values_in_display_units

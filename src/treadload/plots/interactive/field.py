@@ -7,9 +7,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.plots.kit.plan import (

@@ -7,7 +7,6 @@ import textwrap
 from dataclasses import dataclass
 
 import numpy as np
-import xarray as xr
 from matplotlib.axes import Axes
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import LineCollection, QuadMesh
@@ -16,6 +15,7 @@ from matplotlib.colors import Colormap
 from matplotlib.transforms import offset_copy
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.kernels.largest import index_of_largest

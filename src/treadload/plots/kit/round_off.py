@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.variables import SCALES, VARIABLES, axis_display_of
 
 ROUND_OFF = 1e-6

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
-import xarray as xr
 
 from treadload.composing import Source, dataset_of
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import BoolArray
 from treadload.plots.kit.shown import shown

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array, BoolArray, IntArray
 from treadload.kernels.eigenstrain.operator import Grid
 from treadload.kernels.tensors import largest_principal

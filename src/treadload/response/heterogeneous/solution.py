@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import STONES
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.materials import Aggregates
 from treadload.pavement import Pavement

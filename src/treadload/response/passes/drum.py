@@ -17,7 +17,6 @@ from dataclasses import dataclass, field, replace
 from typing import Any, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.contact.bodies.choose import Pair, road_surface, surface_of
@@ -25,6 +24,7 @@ from treadload.contact.bodies.influence import Influence
 from treadload.contact.bounds import check_ribs
 from treadload.contact.contact_grid import BorderError, check_border
 from treadload.contact.solvers.normal import NormalSolution, solve_normal
+from treadload.deferred import xarray as xr
 from treadload.errors import ConvergenceError, InputError, positive
 from treadload.grid import Grid
 from treadload.kernels.arrays import Array

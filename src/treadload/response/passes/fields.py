@@ -7,9 +7,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
+from treadload.deferred import xarray as xr
 from treadload.kernels.arrays import Array
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import DENTS, PASSES
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.kernels.largest import index_of_largest
 from treadload.pavement import Pavement
 from treadload.response.fields import COMPONENTS

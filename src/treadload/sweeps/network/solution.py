@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
-import xarray as xr
 
 from treadload.citations import SOLVED_WHOLE
 from treadload.composing import BaseResult, Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, nearest
 from treadload.kernels.arrays import Array, IntArray
 from treadload.rows import Row, row

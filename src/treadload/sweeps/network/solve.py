@@ -8,10 +8,10 @@ import os
 from collections.abc import Sequence
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.case import Case
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array, IntArray
 from treadload.sweeps.gathered import FAILED, SOLVED

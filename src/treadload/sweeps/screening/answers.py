@@ -9,12 +9,12 @@ from types import ModuleType
 from typing import Any, TypedDict, Unpack, cast
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.case import Case
 from treadload.case.keys import find_key, keys_of
 from treadload.composing import BaseResult
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, how_to_install, nearest
 from treadload.kernels.arrays import Array, BoolArray
 from treadload.sweeps.design import Design

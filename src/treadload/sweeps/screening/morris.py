@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from typing import ClassVar, Unpack
 
 import numpy as np
-import xarray as xr
 
 from treadload import variables
 from treadload.case import Case
 from treadload.composing import Holds
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.kernels.arrays import Array
 from treadload.rows import Row, row

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from typing import Unpack
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.describing import Described
 from treadload.errors import GeometryError, InputError
 from treadload.kernels.arrays import Array, BoolArray

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-import xarray as xr
 
+from treadload.deferred import xarray as xr
 from treadload.describing import Described
 from treadload.errors import GeometryError, InputError
 from treadload.grid import Grid
