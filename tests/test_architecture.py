@@ -18,7 +18,6 @@ from cases import COARSE_CASE
 from texts import code_of, nodes
 from treadload import deferred
 from treadload.registry import STEPS
-from treadload.templates import first_case
 
 ROOT = Path(treadload.__file__).parent
 
@@ -364,15 +363,6 @@ def test_solving_a_contact_needs_no_figures_no_scan_and_no_units():
 
 def test_the_command_line_starts_without_numbers():
     assert not loaded_after("import treadload.cli.commands") & {"matplotlib", "scipy", "xarray", "trimesh"}
-
-
-def test_a_dry_run_loads_no_datasets_no_files_and_no_figures(tmp_path):
-    case = tmp_path / "case.toml"
-    case.write_text(first_case("run"), encoding="utf-8")
-    argv = ["treadload", "run", str(case), "--dry-run"]
-    dry_run = f"import contextlib, treadload.cli; sys.argv = {argv}\nwith contextlib.suppress(SystemExit): "
-    loaded = loaded_after(f"{dry_run}treadload.cli.main()\nassert 'treadload.steps' in sys.modules")
-    assert not loaded & {"xarray", "pandas", "h5py", "h5netcdf", "matplotlib", "pint", "trimesh"}
 
 
 def test_xarray_is_loaded_when_it_is_first_used():

@@ -12,6 +12,7 @@ HEAVY = {
     "h5netcdf",
     "matplotlib",
     "numpy",
+    "pandas",
     "pint",
     "plotly",
     "scipy.optimize",
@@ -19,8 +20,6 @@ HEAVY = {
     "trimesh",
     "xarray",
 }
-CASE = ("numpy", "xarray")
-
 
 # In the order of what they may load, so that what a command loads may be seen by those after it, too.
 COMMANDS = (
@@ -31,7 +30,7 @@ COMMANDS = (
     (["catalogue"], set()),
     (["criteria"], set()),
     (["schema"], set()),
-    (["run", "case.toml", "--dry-run"], {*CASE, "h5py", "h5netcdf", "scipy.optimize"}),
+    (["run", "case.toml", "--dry-run"], {"numpy", "scipy.optimize"}),
 )
 # One after the other in one process, which writes after each what is loaded.
 DRIVER = """
