@@ -89,6 +89,8 @@ _FACTORS = {
     "rad": {"rad": 1.0, "deg": math.pi / 180},
     "": {"%": 1e-2, "microstrain": 1e-6},
 }
+# Of the same dimension: what is counted in the first can be written in units of the second.
+_ALIKE = {"Pa/m": "N/m^3", "N/m^3": "Pa/m"}
 # Angles are pure numbers to pint; here 2 deg is not a pure number, and 600 rpm are not 62.8 Hz.
 _ALSO = {"rad/m": "1/m"}
 
@@ -176,6 +178,8 @@ def _parse(text: str, unit: str) -> float:
         if unit == "degC":
             value = _degrees(number, written)
         else:
+            if _is_of_another_kind(written, unit):
+                raise ValueError("another kind of unit")
             value = number * (_FACTORS.get(unit, {}).get(written) or _factor(written, unit))
     except InputError:
         raise
@@ -187,6 +191,12 @@ def _parse(text: str, unit: str) -> float:
         raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
     # Fifteen digits remove the round-off that factors such as bar → Pa leave.
     return float(f"{value:.15g}")
+
+
+def _is_of_another_kind(written: str, unit: str) -> bool:
+    """Whether a usual unit is not of this kind, without pint, whose import takes as long as a small solve."""
+    others = _FACTORS.keys() - {unit, _ALIKE.get(unit)}
+    return unit in _FACTORS and any(written in _FACTORS[other] for other in others)
 
 
 @cache

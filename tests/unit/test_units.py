@@ -22,10 +22,30 @@ def test_degrees_celsius_are_those_of_pint():
         assert units._degrees(number, "degC") == units._degrees(number, "celsius") == number
 
 
+def test_usual_units_of_another_kind_are_those_of_pint():
+    usual = {written for factors in units._FACTORS.values() for written in factors}
+
+    def refused(written, unit):
+        try:
+            return not units._factor(written, unit)
+        except ValueError:
+            return True
+
+    wrong = [
+        (written, unit)
+        for unit in units._FACTORS
+        for written in usual - units._FACTORS[unit].keys()
+        if units._is_of_another_kind(written, unit) != refused(written, unit)
+    ]
+    assert not wrong
+
+
 def test_usual_units_need_no_pint(monkeypatch):
     monkeypatch.setattr(units, "_registry", None)
     assert quantity("3 mm", "m") == 0.003
     assert quantity("20 °C", "degC") == 20.0
+    with pytest.raises(InputError, match="'kN' is not a unit of this kind"):
+        quantity("20 kN", "m")
 
 
 @pytest.mark.parametrize(
