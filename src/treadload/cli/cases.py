@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import Annotated, Any, TypedDict, Unpack
 
@@ -87,6 +88,9 @@ def _answer(
 
     command: that the case must be for; any where it is left out. options: of `treadload.run`.
     """
+    if dry_run:
+        # Before NumPy is loaded: in the small products of a plan its threads only wait for each other.
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     from treadload.case import Case
     from treadload.errors import InputError
     from treadload.files import check_writable

@@ -10,7 +10,7 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeAlias, Unpack
+from typing import Any, Literal, TypeAlias, TypeGuard, Unpack
 
 import numpy as np
 
@@ -336,7 +336,7 @@ SurfaceLoad = GridLoad | UniformDisc
 
 def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     """Loads to superpose, from one or several contacts, datasets, GridLoads, discs and rectangles."""
-    single = isinstance(loads, PlacedLoad) or isinstance(loads, xr.Dataset | HasDataset)
+    single = isinstance(loads, PlacedLoad) or _has_fields(loads)
     several: Any = [loads] if single else loads
     if not isinstance(several, Sequence) or isinstance(several, str) or not len(several):
         raise InputError(
@@ -364,9 +364,13 @@ def _check_move(x: float, y: float) -> None:
 def _load(item: Load) -> PlacedLoad:
     if isinstance(item, PlacedLoad):
         return item
-    if isinstance(item, xr.Dataset | HasDataset):
+    if _has_fields(item):
         return GridLoad.from_dataset(item)
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
+
+
+def _has_fields(value: object) -> TypeGuard[Source]:
+    return isinstance(value, xr.Dataset | HasDataset)
 
 
 def _kind(value: object) -> str:

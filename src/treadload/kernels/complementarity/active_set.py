@@ -13,7 +13,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse.linalg import LinearOperator, gmres
+import scipy
 
 from treadload.kernels.arrays import Array, BoolArray
 
@@ -180,10 +180,10 @@ class _Problem:
     ) -> Array:
         """Solution of the equations on the active cells, preconditioned from the right."""
         shape = (rhs.size, rhs.size)
-        operator = LinearOperator(shape, matvec=lambda v: apply(invert(v)), dtype=float)
+        operator = scipy.sparse.linalg.LinearOperator(shape, matvec=lambda v: apply(invert(v)), dtype=float)
         before = self.products
         with np.errstate(divide="ignore", invalid="ignore"):
-            solution = gmres(operator, rhs, rtol=rtol, restart=_KRYLOV_MEMORY, maxiter=1)[0]
+            solution = scipy.sparse.linalg.gmres(operator, rhs, rtol=rtol, restart=_KRYLOV_MEMORY, maxiter=1)[0]
         self.krylov += self.products - before
         return invert(solution) if np.isfinite(solution).all() else np.zeros_like(rhs)
 
