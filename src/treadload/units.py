@@ -195,8 +195,8 @@ def _parse(text: str, unit: str) -> float:
 
 def _is_of_another_kind(written: str, unit: str) -> bool:
     """Whether a usual unit is not of this kind, without pint, whose import takes as long as a small solve."""
-    others = _FACTORS.keys() - {unit, _ALIKE.get(unit)}
-    return unit in _FACTORS and any(written in _FACTORS[other] for other in others)
+    unlike = _FACTORS.keys() - {unit, _ALIKE.get(unit)}
+    return unit in _FACTORS and any(written in _FACTORS[kind] for kind in unlike)
 
 
 @cache

@@ -369,8 +369,8 @@ def _load(item: Load) -> PlacedLoad:
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
 
 
-def _has_fields(value: object) -> TypeGuard[Source]:
-    return isinstance(value, xr.Dataset | HasDataset)
+def _has_fields(load: object) -> TypeGuard[Source]:
+    return isinstance(load, xr.Dataset | HasDataset)
 
 
 def _kind(value: object) -> str:
