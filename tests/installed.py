@@ -2,7 +2,8 @@
 
 Outside the clone, for an environment that holds the wheel and nothing of the tests: `.ci/wheel` makes it, from the
 lowest or the newest version of every requirement. Works in a folder of its own; prints a line a step and ends with
-the steps that failed.
+the steps that failed. `--output cp1252` writes to an output of Western Windows, `--output C` to one of the locale C,
+`--output closed` to a pipe that nobody reads: there a step fails by a traceback alone.
 """
 
 from __future__ import annotations
@@ -25,6 +26,15 @@ README = TESTS.parent / "README.md"
 # Pages whose blocks are run after those of the README.
 PAGES = ("docs/howto/command_line.md", "docs/tutorials/hot_road.md")
 SECONDS = 900.0
+# What an output changes in the surroundings of a command. Files that it writes stay UTF-8.
+OUTPUTS = {
+    "utf-8": {"PYTHONUTF8": "1"},
+    "cp1252": {"PYTHONIOENCODING": "cp1252"},
+    "latin-1": {"PYTHONIOENCODING": "latin-1"},
+    "C": {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"},
+    "ascii": {"TREADLOAD_ASCII": "1"},
+    "closed": {},
+}
 ADDRESS = re.compile(r"http://\S+")
 TITLE = re.compile(r"^│ ([a-z][a-z-]*) ", re.MULTILINE)
 BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
@@ -32,7 +42,8 @@ BLOCK = re.compile(r"```(\w*)\n(.*?)```", re.DOTALL)
 
 def commands(program: list[str], environment: dict[str, str]) -> list[str]:
     """Names of the commands that `--help` lists."""
-    listed = subprocess.run([*program, "--help"], capture_output=True, text=True, encoding="utf-8", env=environment)
+    readable = environment | {"PYTHONIOENCODING": "utf-8", "TREADLOAD_ASCII": ""}
+    listed = subprocess.run([*program, "--help"], capture_output=True, text=True, encoding="utf-8", env=readable)
     return TITLE.findall(listed.stdout.partition("Commands")[2])
 
 
@@ -100,6 +111,22 @@ def finished(command: list[str], environment: dict[str, str]) -> tuple[int, str]
     return done.returncode, done.stdout + done.stderr
 
 
+def unread(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
+    """(0 if it ends, its errors) of a command whose output nobody reads."""
+    read, write = os.pipe()
+    os.close(read)
+    try:
+        done = subprocess.run(
+            command, stdout=write, stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace",
+            env=environment, timeout=SECONDS,
+        )  # fmt: skip
+    except subprocess.TimeoutExpired:
+        return -1, f"no end within {SECONDS:g} s"
+    finally:
+        os.close(write)
+    return 0, done.stderr
+
+
 def served(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
     """(0 where the page of `treadload app` is sent to who has its address, what was printed); ends the server."""
     server = subprocess.Popen(
@@ -131,6 +158,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--validate", action="store_true", help="validate too, which takes minutes")
     parser.add_argument("--page", action="store_true", help="the commands that serve the page, and nothing else")
+    parser.add_argument("--output", choices=OUTPUTS, default="utf-8", help="what standard output is")
     options = parser.parse_args()
     failed = []
     with tempfile.TemporaryDirectory() as folder:
@@ -138,12 +166,13 @@ def main() -> int:
         files()
         home = Path(folder) / "home"
         home.mkdir()
-        environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg", "PYTHONUTF8": "1"}
+        environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg"} | OUTPUTS[options.output]
+        ending = unread if options.output == "closed" else finished
         for name, command in steps(
             [sys.executable, "-P", "-m", "treadload"], environment, options.validate, options.page
         ):
             began = time.perf_counter()
-            code, printed = (served if "--no-open" in command else finished)(command, environment)
+            code, printed = (served if "--no-open" in command else ending)(command, environment)
             word = "ok" if code == 0 else f"FAILED ({code})"
             print(f"{time.perf_counter() - began:6.1f} s  {word:12}  {name}", flush=True)
             if code or "Traceback" in printed:
