@@ -77,7 +77,10 @@ def steps(program: list[str], environment: dict[str, str], validate: bool, page:
         if "app" not in line and ("validate" not in line or validate):
             found.append((" ".join(line), [*program, *line[1:]]))
     # Last, as they may open what the commands wrote.
-    found += [(f"Python {number}", [sys.executable, "-P", "-c", text]) for number, text in enumerate(scripts, 1)]
+    for number, text in enumerate(scripts, 1):
+        # In a file, as Python reads no text of a command under C.
+        Path(f"script_{number}.py").write_text(text, encoding="utf-8")
+        found.append((f"Python {number}", [sys.executable, "-P", f"script_{number}.py"]))
     return found
 
 
