@@ -97,12 +97,18 @@ def files() -> None:
     Path("print.asf").write_text(tekscan([ribbed().pressure / 1e3]), encoding="latin-1")
 
 
-def finished(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
-    """(exit status, what was printed) of a command that ends by itself."""
+def finished(command: list[str], environment: dict[str, str], read: bool = True) -> tuple[int, str]:
+    """(exit status, what was printed) of a command that ends by itself.
+
+    read: False closes the pipe of its output before it writes: status 0 where it ends, and its errors.
+    """
+    reader, writer = os.pipe()
+    os.close(reader)
     try:
         done = subprocess.run(
             command,
-            capture_output=True,
+            stdout=subprocess.PIPE if read else writer,
+            stderr=subprocess.PIPE,
             text=True,
             encoding="utf-8",
             errors="replace",
@@ -111,23 +117,9 @@ def finished(command: list[str], environment: dict[str, str]) -> tuple[int, str]
         )
     except subprocess.TimeoutExpired:
         return -1, f"no end within {SECONDS:g} s"
-    return done.returncode, done.stdout + done.stderr
-
-
-def unread(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
-    """(0 if it ends, its errors) of a command whose output nobody reads."""
-    read, write = os.pipe()
-    os.close(read)
-    try:
-        done = subprocess.run(
-            command, stdout=write, stderr=subprocess.PIPE, text=True, encoding="utf-8", errors="replace",
-            env=environment, timeout=SECONDS,
-        )  # fmt: skip
-    except subprocess.TimeoutExpired:
-        return -1, f"no end within {SECONDS:g} s"
     finally:
-        os.close(write)
-    return 0, done.stderr
+        os.close(writer)
+    return (done.returncode, done.stdout + done.stderr) if read else (0, done.stderr)
 
 
 def served(command: list[str], environment: dict[str, str]) -> tuple[int, str]:
@@ -170,16 +162,16 @@ def main() -> int:
         home = Path(folder) / "home"
         home.mkdir()
         environment = {**os.environ, "HOME": str(home), "MPLBACKEND": "agg"} | OUTPUTS[options.output]
-        closed = options.output == "closed"
-        ending = unread if closed else finished
+        read = options.output != "closed"
         for name, command in steps(
             [sys.executable, "-P", "-m", "treadload"], environment, options.validate, options.page
         ):
             # Python's own print raises into a closed pipe.
-            if closed and command[-1].endswith(".py"):
+            if not read and command[-1].endswith(".py"):
                 continue
             began = time.perf_counter()
-            code, printed = (served if "--no-open" in command else ending)(command, environment)
+            serves = "--no-open" in command
+            code, printed = served(command, environment) if serves else finished(command, environment, read)
             word = "ok" if code == 0 else f"FAILED ({code})"
             print(f"{time.perf_counter() - began:6.1f} s  {word:12}  {name}", flush=True)
             if code or "Traceback" in printed:

@@ -9,12 +9,26 @@ import sys
 from contextlib import contextmanager
 from pathlib import Path
 
+import pytest
+
 import treadload as tl
 from treadload.app.links import Links
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or "/usr/bin/chromium"
 # A machine on which others work is several times slower: patience, ms. Bounds of time hold on a quiet one.
 PATIENCE = 150_000
+
+
+@contextmanager
+def browser(*arguments):
+    """Chromium, started with further arguments; the test is skipped where it is missing."""
+    sync_api = pytest.importorskip("playwright.sync_api")
+    if not Path(CHROMIUM).exists():
+        pytest.skip("no Chromium here; .ci/run installs it")
+    with sync_api.sync_playwright() as playwright:
+        started = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", *arguments])
+        yield started
+        started.close()
 
 
 class Serving:

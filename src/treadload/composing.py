@@ -11,7 +11,7 @@ from abc import abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, runtime_checkable
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeAlias, TypeGuard, runtime_checkable
 
 from treadload.deferred import xarray as xr
 from treadload.describing import Described, as_html
@@ -152,6 +152,11 @@ class BaseResult(Described):
 
 Source: TypeAlias = "xr.Dataset | HasDataset"
 """What a verb reads fields from."""
+
+
+def has_fields(value: object) -> TypeGuard[Source]:
+    """Whether a value is a dataset, or a result that has one."""
+    return isinstance(value, xr.Dataset | HasDataset)
 
 
 def dataset_of(source: Source) -> xr.Dataset:

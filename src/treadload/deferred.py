@@ -10,7 +10,7 @@ if TYPE_CHECKING:
 else:
 
     class _Deferred(ModuleType):
-        """Stands for xarray until one of its names is used."""
+        """In place of xarray until one of its names is used."""
 
         def __getattr__(self, name: str) -> object:
             import xarray

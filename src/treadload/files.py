@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
+from treadload.deferred import xarray as xr
 from treadload.errors import InputError, WriteError, one_line
 
 if TYPE_CHECKING:
     import h5netcdf
     import h5py
-    import xarray as xr
 
 Content = bytes | str | Iterable[str]
 # No space, no quota, or more than a file may hold.
@@ -157,7 +157,6 @@ def _tree(path: Path) -> xr.DataTree:
     # The command line writes files and starts without numbers.
     import h5netcdf
     import h5py
-    import xarray as xr
     from xarray.backends import H5NetCDFStore
 
     # Of a file whose root cannot be read h5netcdf makes half an object, whose end prints a traceback.

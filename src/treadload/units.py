@@ -178,9 +178,7 @@ def _parse(text: str, unit: str) -> float:
         if unit == "degC":
             value = _degrees(number, written)
         else:
-            if _is_of_another_kind(written, unit):
-                raise ValueError("another kind of unit")
-            value = number * (_FACTORS.get(unit, {}).get(written) or _factor(written, unit))
+            value = number * (_FACTORS.get(unit, {}).get(written) or _unusual_factor(written, unit))
     except InputError:
         raise
     except Exception as error:
@@ -191,6 +189,13 @@ def _parse(text: str, unit: str) -> float:
         raise InputError(f"cannot read {text!r} as a quantity in {kind}: {why}; {hint}") from error
     # Fifteen digits remove the round-off that factors such as bar → Pa leave.
     return float(f"{value:.15g}")
+
+
+def _unusual_factor(written: str, unit: str) -> float:
+    """As `_factor`, which is asked only where no usual unit of another kind is written."""
+    if _is_of_another_kind(written, unit):
+        raise ValueError("another kind of unit")
+    return _factor(written, unit)
 
 
 def _is_of_another_kind(written: str, unit: str) -> bool:

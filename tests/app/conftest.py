@@ -2,11 +2,10 @@
 
 import os
 import time
-from pathlib import Path
 
 import pytest
 
-from page_visits import CHROMIUM, Visit, serving
+from page_visits import Visit, browser, serving
 
 
 @pytest.fixture(scope="module")
@@ -19,13 +18,8 @@ def server(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def chromium():
-    sync_api = pytest.importorskip("playwright.sync_api")
-    if not Path(CHROMIUM).exists():
-        pytest.skip("no Chromium here; .ci/run installs it")
-    with sync_api.sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
-        yield browser
-        browser.close()
+    with browser() as started:
+        yield started
 
 
 @pytest.fixture(scope="module")

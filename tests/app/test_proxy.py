@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from page_visits import CHROMIUM, PATIENCE, serving
+from page_visits import PATIENCE, browser, serving
 
 pytestmark = pytest.mark.browser
 
@@ -63,18 +63,12 @@ def chromium(folder):
     One that ignores the error starts each request again, and gives some up with ERR_TOO_MANY_RETRIES when many begin
     at once.
     """
-    sync_api = pytest.importorskip("playwright.sync_api")
-    if not Path(CHROMIUM).exists():
-        pytest.skip("no Chromium here; .ci/run installs it")
     key = subprocess.run(
         ["openssl", "pkey", "-in", folder / "key.pem", "-pubout", "-outform", "der"], check=True, capture_output=True
     ).stdout
     trusted = base64.b64encode(hashlib.sha256(key).digest()).decode()
-    with sync_api.sync_playwright() as playwright:
-        arguments = ["--no-sandbox", f"--ignore-certificate-errors-spki-list={trusted}"]
-        browser = playwright.chromium.launch(executable_path=CHROMIUM, args=arguments)
-        yield browser
-        browser.close()
+    with browser(f"--ignore-certificate-errors-spki-list={trusted}") as trusting:
+        yield trusting
 
 
 @pytest.fixture(scope="module")

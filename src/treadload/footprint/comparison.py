@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from treadload import variables
-from treadload.composing import BaseResult, HasDataset, Holds
+from treadload.composing import BaseResult, Holds, has_fields
 from treadload.deferred import xarray as xr
 from treadload.errors import InputError
 from treadload.footprint.footprint import Footprint, checked_pin
@@ -181,7 +181,7 @@ def _load(result: object) -> GridLoad:
     load_of = result if contact is None else contact
     load = load_of.load if isinstance(load_of, Footprint) else load_of
     if not isinstance(load, GridLoad):
-        if not isinstance(load, xr.Dataset | HasDataset):
+        if not has_fields(load):
             raise InputError(
                 f"compare takes a contact or a result that has one, got {type(result).__name__}; give what "
                 "solve_contact or run returned, or open_results of a file"
@@ -195,7 +195,7 @@ def _load(result: object) -> GridLoad:
 def _footprint(footprint: object) -> Footprint:
     if isinstance(footprint, str | os.PathLike):
         footprint = read_footprint(footprint)
-    if isinstance(footprint, xr.Dataset | HasDataset) and not isinstance(footprint, Footprint):
+    if has_fields(footprint) and not isinstance(footprint, Footprint):
         footprint = GridLoad.from_dataset(footprint)
     sensor = Footprint(footprint) if isinstance(footprint, GridLoad) else footprint
     if not isinstance(sensor, Footprint):

@@ -10,13 +10,12 @@ import math
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeAlias, TypeGuard, Unpack
+from typing import Any, Literal, TypeAlias, Unpack
 
 import numpy as np
 
-from treadload.composing import HasDataset, Source, dataset_of
+from treadload.composing import Source, dataset_of, has_fields
 from treadload.contact.fields import RIB_SIDES
-from treadload.deferred import xarray as xr
 from treadload.describing import as_call
 from treadload.errors import InputError, positive
 from treadload.grid import Grid
@@ -336,7 +335,7 @@ SurfaceLoad = GridLoad | UniformDisc
 
 def gather(loads: Load | Sequence[Load]) -> tuple[PlacedLoad, ...]:
     """Loads to superpose, from one or several contacts, datasets, GridLoads, discs and rectangles."""
-    single = isinstance(loads, PlacedLoad) or _has_fields(loads)
+    single = isinstance(loads, PlacedLoad) or has_fields(loads)
     several: Any = [loads] if single else loads
     if not isinstance(several, Sequence) or isinstance(several, str) or not len(several):
         raise InputError(
@@ -364,13 +363,9 @@ def _check_move(x: float, y: float) -> None:
 def _load(item: Load) -> PlacedLoad:
     if isinstance(item, PlacedLoad):
         return item
-    if _has_fields(item):
+    if has_fields(item):
         return GridLoad.from_dataset(item)
     raise InputError(f"a load must be a contact, a dataset or a GridLoad, got {_kind(item)}")
-
-
-def _has_fields(load: object) -> TypeGuard[Source]:
-    return isinstance(load, xr.Dataset | HasDataset)
 
 
 def _kind(value: object) -> str:
